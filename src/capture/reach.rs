@@ -5,10 +5,10 @@ use crate::registry;
 use crate::scenario::Scenario;
 use crate::simulate::bodies::{BodySums, bodies};
 
-/// The distance of a point from the robot's COM at the end of the approach, against the reach of an arm.
+/// The distance of a point from the robot's COM at some time of the approach, against the reach of an arm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Reach {
-    /// [x, y] of the robot's COM at the end of the approach, m: without external forces it moves uniformly.
+    /// [x, y] of the robot's COM at that time, m: without external forces it moves uniformly.
     pub(crate) center_of_mass: [f64; 2],
     /// Of the point from there, m.
     pub(crate) distance: f64,
@@ -18,15 +18,26 @@ pub(crate) struct Reach {
 }
 
 impl Reach {
-    /// For a point [x, y], m, and an arm; `None` for a wheel, and where the numbers are too large to compute with.
-    pub(crate) fn new(scenario: &Scenario, arm: usize, [x, y]: [f64; 2]) -> Option<Self> {
-        let (layout, initial) = (&scenario.layout, &scenario.initial.view());
+    /// For a point [x, y], m, and an arm at the end of the approach; `None` for a wheel, and where the numbers are too
+    /// large to compute with.
+    pub(crate) fn new(scenario: &Scenario, arm: usize, point: [f64; 2]) -> Option<Self> {
+        Self::at(scenario, arm, center_of_mass(scenario)?.after(scenario.approach.duration), point)
+    }
+
+    /// For a point that moves uniformly, and an arm: when it is nearest in a span of time, s, from the start of the
+    /// approach on.
+    pub(crate) fn nearest(scenario: &Scenario, arm: usize, point: UniformMotion, span: f64) -> Option<Self> {
+        let center_of_mass = center_of_mass(scenario)?;
+        let [x, y] = [0, 1].map(|i: usize| point.start[i] - center_of_mass.start[i]);
+        let [vx, vy] = [0, 1].map(|i: usize| point.velocity[i] - center_of_mass.velocity[i]);
+        let squared = vx * vx + vy * vy;
+        let time = if squared > 0.0 { (-(x * vx + y * vy) / squared).clamp(0.0, span) } else { 0.0 };
+        Self::at(scenario, arm, center_of_mass.after(time), point.after(time))
+    }
+
+    fn at(scenario: &Scenario, arm: usize, center_of_mass: [f64; 2], [x, y]: [f64; 2]) -> Option<Self> {
+        let layout = &scenario.layout;
         let arm = Some(&layout.arms[arm]).filter(|arm| arm.reach() > 0.0)?;
-        let model = registry::generic(layout);
-        let sums = BodySums::new(bodies(&*model, initial, &[]).ok()?.into_iter());
-        let (start, mass) = (sums.center_of_mass(), sums.mass);
-        let momentum = model.momentum(initial).ok()?.linear_momentum;
-        let center_of_mass = [0, 1].map(|i: usize| start[i] + momentum[i] / mass * scenario.approach.duration);
         let distance = libm::hypot(x - center_of_mass[0], y - center_of_mass[1]);
         Some(Self { center_of_mass, distance, limit: arm.reach_from_base() + base_distance_limit(layout) })
     }
@@ -35,6 +46,28 @@ impl Reach {
     pub(crate) fn is_exceeded(&self) -> bool {
         self.distance > self.limit
     }
+}
+
+/// A point without forces: its place at the start of the approach, m, and its velocity, m/s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct UniformMotion {
+    pub(crate) start: [f64; 2],
+    pub(crate) velocity: [f64; 2],
+}
+
+impl UniformMotion {
+    fn after(self, time: f64) -> [f64; 2] {
+        [0, 1].map(|i: usize| self.start[i] + self.velocity[i] * time)
+    }
+}
+
+/// That of the robot's COM.
+fn center_of_mass(scenario: &Scenario) -> Option<UniformMotion> {
+    let initial = &scenario.initial.view();
+    let model = registry::generic(&scenario.layout);
+    let sums = BodySums::new(bodies(&*model, initial, &[]).ok()?.into_iter());
+    let velocity = model.momentum(initial).ok()?.linear_momentum.map(|momentum| momentum / sums.mass);
+    Some(UniformMotion { start: sums.center_of_mass(), velocity })
 }
 
 /// Upper bound of the distance between the COMs of base and robot, m.
@@ -52,7 +85,7 @@ fn base_distance_limit(layout: &Layout) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::Reach;
+    use super::{Reach, UniformMotion};
     use crate::registry;
     use crate::scenario::Scenario;
     use planar_proof::assert_close;
@@ -69,6 +102,25 @@ mod tests {
         resting.initial.base_twist = [0.0; 3];
         let [end, start] = [&moving, &resting].map(|it| Reach::new(it, 0, [9.0, 9.0]).expect("a reach").center_of_mass);
         assert_close("way", &[end[0] - start[0], end[1] - start[1]], &[0.6, -0.3], 1e-12);
+    }
+
+    /// A point that comes from afar is nearest where it passes, or at an end of the time.
+    #[test]
+    fn a_moving_point_is_nearest_where_it_passes() {
+        let scenario = Scenario::parse(TEXT, "it.toml", "".as_ref(), registry::SHIPPED).expect("a scenario");
+        let center = |span| {
+            let still = UniformMotion { start: [0.0; 2], velocity: [0.2, -0.1] };
+            Reach::nearest(&scenario, 0, still, span).expect("a reach").center_of_mass
+        };
+        let start = center(0.0);
+        let distance = |[x, y]: [f64; 2], span| {
+            let start = [start[0] + x, start[1] + y];
+            let passing = UniformMotion { start, velocity: [-0.8, -0.1] };
+            Reach::nearest(&scenario, 0, passing, span).expect("a reach").distance
+        };
+        // relative to the robot's COM it comes along x by 1 m/s
+        let found = [distance([5.0, 2.0], 9.0), distance([5.0, 2.0], 2.0), distance([-5.0, 2.0], 9.0)];
+        assert_close("distances", &found, &[2.0, libm::hypot(3.0, 2.0), libm::hypot(5.0, 2.0)], 1e-12);
     }
 
     /// Of an arm of one link, whose COM is anywhere in its frame, the base is farthest where the COM is on the line of the

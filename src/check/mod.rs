@@ -23,6 +23,7 @@ mod arms;
 mod bodies;
 mod breakdown;
 mod clearance;
+mod encounter;
 mod kind;
 mod link;
 mod names;
@@ -148,8 +149,15 @@ pub fn inspect_with<'k>(
 
 /// Warnings about a scenario, and why every run of it is refused.
 fn scenario_findings(scenario: &Scenario, robots: Robots<'_>) -> (Vec<Warning>, Option<StudyError>) {
-    let warnings = [names::warnings, approach::warnings, pose::warnings, stiffness::warnings, targets::warnings];
-    let mut warnings: Vec<_> = warnings.into_iter().flat_map(|check| check(scenario)).collect();
+    let checks = [
+        names::warnings,
+        approach::warnings,
+        pose::warnings,
+        stiffness::warnings,
+        targets::warnings,
+        encounter::warnings,
+    ];
+    let mut warnings: Vec<_> = checks.into_iter().flat_map(|check| check(scenario)).collect();
     match clearance::warnings(scenario, robots) {
         Ok(found) => {
             warnings.extend(found);

@@ -393,6 +393,31 @@ fn warnings_are_in_the_order_of_the_files() {
     assert!(at.iter().all(Option::is_some) && at.is_sorted() && warnings.count() == 4, "{shown}");
 }
 
+/// A target that is to be met, and never comes within reach, in some cases or in all.
+#[test]
+fn targets_that_are_never_met_are_named() {
+    let far = SCENARIO
+        .replace("contact = [0.0, 0.5]\n", "")
+        .replace("[post_impact]", "[contact]\ndetection = \"event\"\n[post_impact]");
+    let shown = |position: &str, twist: &str| {
+        let text = far.replace("[1.5, -2.0]", position).replace("[0.2, 0.0, 0.0]", twist);
+        inspect_text(&text).warnings.to_string()
+    };
+    let always = shown("[9.0, 0.1]", "[0.2, 0.0, 0.0]");
+    assert!(always.contains("`target[0].position` is [9.0, 0.1]: no end effector can meet `ball`"), "{always}");
+    assert_eq!(always.matches("can meet").count(), 1, "{always}");
+    assert!(!always.contains(" mm "), "{always}");
+    let millimetres = shown("[3600, 100]", "[0.2, 0.0, 0.0]");
+    assert!(millimetres.contains("(3600, 100) mm are (3.6, 0.1) m"), "{millimetres}");
+    // it comes, and passes, but not where it is at rest
+    let coming = shown("[9.0, 0.1]", "[0.0, -0.9, 0.0]");
+    assert!(coming.contains("`case[1].target_twists` is"), "{coming}");
+    assert_eq!(coming.matches("can meet").count(), 1, "{coming}");
+    let away = shown("[9.0, 0.1]", "[0.0, 0.9, 0.0]");
+    assert!(away.contains("`target[0].position` is"), "{away}");
+    assert!(!shown("[3.0, 0.1]", "[0.0, 0.1, 0.0]").contains("can meet"));
+}
+
 /// Several lengths in another unit are named, each at its own key.
 #[test]
 fn all_lengths_in_another_unit_are_named() {
