@@ -30,6 +30,7 @@ mod names;
 mod number;
 mod outlines;
 mod pose;
+mod repetition;
 mod robot;
 mod stiffness;
 mod study;
@@ -47,6 +48,7 @@ use crate::registry::Robots;
 use crate::scenario::{Known, Scenario, Variant};
 pub use breakdown::{law_report, study_report};
 use kind::kind;
+use repetition::is_repeated;
 use std::path::Path;
 
 /// A valid file.
@@ -100,16 +102,16 @@ pub fn inspect_with<'k>(
                 [] => (Vec::new(), None),
                 _ => scenario_findings(&scenario, robots),
             };
-            let in_words = |error: &StudyError, of: &Scenario| (error.key(of).path, error.to_string());
-            let common = error.as_ref().map(|error| in_words(error, &scenario));
+            let common = (warnings.clone(), error.as_ref().map(|error| refused(error, &scenario)));
             let mut refusal = error.map(|error| error.report(&scenario, text, file, None));
             for variant in &scenario.variants {
                 let (own, error) = variant_findings(variant, &scenario, robots);
-                let own: Vec<_> = own.into_iter().filter(|warning| !warnings.contains(warning)).collect();
-                warnings.extend(own.into_iter().map(|warning| variant.at_its_key(warning)));
-                // what the values of the case have no part in is said once
-                if let Some(error) = error.filter(|own| common.as_ref() != Some(&in_words(own, &variant.scenario))) {
-                    let why = format!("with these values, `{}`: {error}", error.key(&variant.scenario).path);
+                let is_new = |own: &Warning| !common.0.iter().any(|known| is_repeated(own, known, variant));
+                warnings.extend(own.into_iter().filter(is_new).map(|warning| variant.at_its_key(warning)));
+                let own = error.map(|error| refused(&error, &variant.scenario));
+                let is_new = |own: &Warning| !common.1.iter().any(|known| is_repeated(own, known, variant));
+                if let Some(Warning { key, why, .. }) = own.filter(is_new) {
+                    let why = format!("with these values, `{key}`: {why}");
                     let report = report_error(text, file, (&variant.key(), "none"), &why, None);
                     refusal = Some(match refusal {
                         Some(before) => before.and(report),
@@ -129,11 +131,8 @@ pub fn inspect_with<'k>(
             let Campaign { scenario, scenario_source: sources, .. } = &campaign;
             let (mut warnings, refusal) = scenario_findings(scenario, robots);
             // with the values that vary it may be another one
-            warnings.extend(
-                refusal.map(|error| {
-                    warning(error.key(scenario).path, error.to_string(), "so it is before anything varies")
-                }),
-            );
+            let before = "so it is before anything varies";
+            warnings.extend(refusal.map(|error| Warning { help: before.to_owned(), ..refused(&error, scenario) }));
             let texts = [&sources.scenario, &sources.layout].map(|source| (&*source.text, &*source.file));
             if let Some(variant) = &campaign.variant {
                 warnings = warnings.into_iter().map(|warning| variant.at_its_key(warning)).collect();
@@ -147,17 +146,14 @@ pub fn inspect_with<'k>(
     }
 }
 
+/// Why every run is refused, at its key.
+fn refused(error: &StudyError, scenario: &Scenario) -> Warning {
+    warning(error.key(scenario).path, error.to_string(), "")
+}
+
 /// Warnings about a scenario, and why every run of it is refused.
 fn scenario_findings(scenario: &Scenario, robots: Robots<'_>) -> (Vec<Warning>, Option<StudyError>) {
-    let checks = [
-        names::warnings,
-        approach::warnings,
-        pose::warnings,
-        stiffness::warnings,
-        targets::warnings,
-        encounter::warnings,
-    ];
-    let mut warnings: Vec<_> = checks.into_iter().flat_map(|check| check(scenario)).collect();
+    let mut warnings = unlikely(scenario);
     match clearance::warnings(scenario, robots) {
         Ok(found) => {
             warnings.extend(found);
@@ -167,13 +163,32 @@ fn scenario_findings(scenario: &Scenario, robots: Robots<'_>) -> (Vec<Warning>, 
     }
 }
 
+/// Warnings about a scenario's numbers, without its planned path.
+fn unlikely(scenario: &Scenario) -> Vec<Warning> {
+    let checks = [
+        names::warnings,
+        approach::warnings,
+        pose::warnings,
+        stiffness::warnings,
+        targets::warnings,
+        encounter::warnings,
+    ];
+    checks.into_iter().flat_map(|check| check(scenario)).collect()
+}
+
 /// The same about a case with values of its own; about its layout, what is not true of the scenario's.
 fn variant_findings(variant: &Variant, common: &Scenario, robots: Robots<'_>) -> (Vec<Warning>, Option<StudyError>) {
     let (mut warnings, error) = scenario_findings(&variant.scenario, robots);
-    let known = of_layout(&common.layout);
-    let own = of_layout(&variant.scenario.layout).into_iter().filter(|warning| !known.contains(warning));
-    warnings.extend(own.map(|warning| Warning { key: format!("layout.{}", warning.key), ..warning }));
+    let known = by_path(&common.layout);
+    let is_new = |own: &Warning| !known.iter().any(|known| is_repeated(own, known, variant));
+    warnings.extend(by_path(&variant.scenario.layout).into_iter().filter(is_new));
     (warnings, error)
+}
+
+/// Warnings about a layout, at the paths that its keys have in sweeps and cases.
+fn by_path(layout: &Layout) -> Vec<Warning> {
+    let at = |warning: Warning| Warning { key: format!("layout.{}", warning.key), ..warning };
+    of_layout(layout).into_iter().map(at).collect()
 }
 
 fn of_layout(layout: &Layout) -> Vec<Warning> {

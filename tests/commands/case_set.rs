@@ -226,10 +226,23 @@ fn what_is_wrong_without_them_is_said_once() {
 fn what_is_wrong_without_the_values_too_is_said_once() {
     let place = Place::new();
     let text = fs::read_to_string(file("scenarios/spinning_target.toml")).expect("a scenario");
-    for (set, times) in [("\"target.disc.mass\" = 20.0", 1), ("\"layout.arm.arm1.link[0].length\" = 0.9", 2)] {
+    // the reach is another one, and the pose out of it with either; a pose of the case's own is another problem
+    for (set, times) in [
+        ("\"target.disc.mass\" = 20.0", 1),
+        ("\"layout.base.mass\" = 90.0", 1),
+        ("\"layout.arm.arm1.link[0].length\" = 0.9", 1),
+        ("\"approach.final_end_effector_poses[0][0]\" = 8.8", 2),
+    ] {
         let own = text.replace("name = \"rigid\"", &format!("name = \"rigid\"\nset = {{ {set} }}"));
         let path = place.write("far.toml", &own.replace("[[2.2, -0.9]]", "[[9.9, -0.9]]"));
         let (code, out, err) = said(&["check", &path]);
         assert_eq!((code, err.matches("is out of reach").count()), (2, times), "{set}: {out}{err}");
+    }
+    // a warning
+    for (set, times) in [("\"layout.base.mass\" = 90.0", 1), ("\"target.disc.mass\" = 900.0", 2)] {
+        let own = text.replace("name = \"rigid\"", &format!("name = \"rigid\"\nset = {{ {set} }}"));
+        let path = place.write("heavy.toml", &own.replacen("mass = ", "mass = 5", 1));
+        let (code, out, err) = said(&["check", &path]);
+        assert_eq!((code, err.matches("heavier than the robot").count()), (0, times), "{set}: {out}{err}");
     }
 }
