@@ -23,6 +23,8 @@ mod arms;
 mod bodies;
 mod breakdown;
 mod clearance;
+#[cfg(feature = "sweep")]
+mod draws;
 mod encounter;
 mod kind;
 mod link;
@@ -133,13 +135,15 @@ pub fn inspect_with<'k>(
             // with the values that vary it may be another one
             let before = "so it is before anything varies";
             warnings.extend(refusal.map(|error| Warning { help: before.to_owned(), ..refused(&error, scenario) }));
+            let known = [warnings.clone(), by_path(&scenario.layout)].concat();
+            let drawn = report_warnings(text, file, &draws::warnings(&campaign, &known, robots));
             let texts = [&sources.scenario, &sources.layout].map(|source| (&*source.text, &*source.file));
             if let Some(variant) = &campaign.variant {
                 warnings = warnings.into_iter().map(|warning| variant.at_its_key(warning)).collect();
             }
             Ok(CheckReport {
                 description: sweep::description(&campaign),
-                warnings: scenario_warnings(scenario, &warnings, texts),
+                warnings: drawn.and(scenario_warnings(scenario, &warnings, texts)),
                 refusal: None,
             })
         }

@@ -2,6 +2,8 @@
 
 mod description;
 mod invalid_files;
+#[cfg(feature = "sweep")]
+mod sweeps;
 mod warnings;
 
 use crate::command;
