@@ -18,8 +18,8 @@ pub(super) fn warnings(layout: &Layout) -> Vec<Warning> {
 
 fn far_mount(layout: &Layout, i: usize, arm: &Arm) -> Option<Warning> {
     let (distance, radius) = (libm::hypot(arm.mount[0], arm.mount[1]), layout.base.radius_of_gyration());
-    // an unlikely base has a warning of its own
-    (has_size(layout) && distance > MAX_MOUNT_DISTANCE * radius).then(|| {
+    // an unlikely base, and lengths in mm, have warnings of their own
+    (has_size(layout) && layout.millimetres().is_none() && distance > MAX_MOUNT_DISTANCE * radius).then(|| {
         let why = format!(
             "{} m from the base COM, {} times the base's radius of gyration √(inertia / mass), {} m",
             short(distance),

@@ -4,7 +4,7 @@ use super::link;
 use super::number::short;
 use super::warning;
 use crate::diagnostic::Warning;
-use crate::layout::{Arm, Layout, Link};
+use crate::layout::{Arm, Layout, Link, Millimetres};
 
 /// Radii of gyration of bases, from a small circuit board's to a space station's, m.
 const BASE_RADII: std::ops::RangeInclusive<f64> = 1e-3..=100.0;
@@ -18,6 +18,10 @@ const MAX_MASS_RATIO: f64 = 1e6;
 const MAX_INERTIA_RATIO: f64 = 1e9;
 
 pub(super) fn warnings(layout: &Layout) -> Vec<Warning> {
+    // what follows from all lengths is not said of each
+    if let Some(lengths) = millimetres(layout) {
+        return [Some(lengths), light_base(layout)].into_iter().flatten().collect();
+    }
     let links = layout.arms.iter().enumerate().flat_map(|(i, arm)| {
         let links = arm.links.iter().enumerate();
         links.filter_map(move |(k, link)| link::check(link, &format!("arm[{i}].link[{k}]")))
@@ -29,6 +33,11 @@ pub(super) fn warnings(layout: &Layout) -> Vec<Warning> {
         ratio(layout, "inertia", "kg m²", MAX_INERTIA_RATIO, layout.base.inertia, |link| link.inertia),
     ];
     links.chain(long_links(layout)).chain(of_all.into_iter().flatten()).collect()
+}
+
+fn millimetres(layout: &Layout) -> Option<Warning> {
+    let Millimetres { arm, link, why, help } = layout.millimetres()?;
+    Some(warning(format!("arm[{arm}].link[{link}].length"), format!("{why}: lengths look like mm"), help))
 }
 
 fn light_base(layout: &Layout) -> Option<Warning> {

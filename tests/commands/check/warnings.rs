@@ -418,6 +418,23 @@ fn targets_that_are_never_met_are_named() {
     assert!(!shown("[3.0, 0.1]", "[0.0, 0.1, 0.0]").contains("can meet"));
 }
 
+/// Lengths that are all in mm are said once, not with all that follows from them.
+#[test]
+fn all_lengths_in_millimetres_are_said_once() {
+    let links = LAYOUT.replace("length = 1.0", "length = 1000.0").replace("length = 0.5", "length = 500.0");
+    let links = links.replace("length = 2.0", "length = 2000.0").replace("com = [0.5, 0.1]", "com = [500, 100]");
+    let all = links.replace("[0.5, 0.0]", "[500, 0]").replace("[-0.5, 0.0]", "[-500, 0]");
+    one_warning(&all, 9, &["`arm[0].link[0].length` is 1000.0", "look like mm", "1000 mm are 1 m"]);
+    // inertias in kg mm², too
+    let inertias = all.replace("inertia = 80.0", "inertia = 80e6").replace("inertia = 1.0", "inertia = 1e6");
+    let inertias = inertias.replace("inertia = 0.1", "inertia = 1e5").replace("inertia = 3.0", "inertia = 3e6");
+    one_warning(&inertias, 9, &["the arms reach up to 3000 m", "look like mm"]);
+    // mounts in m
+    let error = inspect(&links, "it.toml", Path::new(""), SHIPPED)
+        .map_or_else(|error| error.to_string(), |report| report.warnings.to_string());
+    assert!(error.contains("`arm[0].link[0].length` is 1000.0") && error.contains("1000 mm are 1 m"), "{error}");
+}
+
 /// Several lengths in another unit are named, each at its own key.
 #[test]
 fn all_lengths_in_another_unit_are_named() {

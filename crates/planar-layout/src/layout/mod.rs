@@ -21,6 +21,7 @@
 //! ```
 
 mod keys;
+mod millimetres;
 mod resolution;
 
 use std::path::Path;
@@ -30,6 +31,7 @@ use planar_dynamics::manifest::ParameterKind;
 use crate::diagnostic::{DocumentKind, Report, Table, Value, every, read_text, report_error};
 use crate::outline::{Outline, outline};
 use crate::proportion::{Disproportion, Inertia, disproportion};
+pub use millimetres::Millimetres;
 use resolution::{LEAST_SHARE, Weakest};
 
 pub use keys::FORMAT;
@@ -285,6 +287,12 @@ impl Layout {
         }
         if let Some(long) = self.long_links() {
             return long;
+        }
+        let are_why = || Weakest::of(&self.in_metres()).share >= LEAST_SHARE;
+        if let Some(Millimetres { arm, link, why, help }) = self.millimetres().filter(|_| are_why()) {
+            let value = self.arms[arm].links[link].length;
+            let why = format!("{why}: 16 digits do not resolve how such a robot moves; {help}");
+            return vec![Disproportion { kind: ParameterKind::LinkLength, arm, link, value, why }];
         }
         let ((kind, value), what, beyond) = match link {
             Some((i, k)) => {
