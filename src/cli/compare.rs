@@ -43,6 +43,9 @@ pub struct Arguments {
     /// Replace the files in DIR, whatever they are; not folders in it, hidden files or your home folder.
     #[arg(long)]
     force: bool,
+    /// Show no progress.
+    #[arg(short, long)]
+    quiet: bool,
 }
 
 /// Compares the implementations, writes the worst states and prints a table.
@@ -52,7 +55,7 @@ pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, Comman
     let keep: &[&Path] = if Layout::is_path(&arguments.layout) { &[Path::new(&arguments.layout)] } else { &[] };
     let objection = |folder: &Path, names: &[String]| objection(folder, names, &layout);
     let folder = ResultFolder::claim(&folder, arguments.force, keep, &objection)?;
-    let choice = choose(&layout, &arguments.layout, robots)?;
+    let choice = choose(&layout, arguments, robots)?;
     let comparison = compare(&layout, &choice, arguments.samples, arguments.seed);
     let shown = folder.path().display().to_string();
     let staged = folder.stage()?;
@@ -98,13 +101,13 @@ pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, Comman
 }
 
 /// Compiled code, else a graph; where there is none it is derived.
-fn choose(layout: &Layout, file: &str, robots: Robots<'_>) -> Result<Choice, CommandError> {
+fn choose(layout: &Layout, arguments: &Arguments, robots: Robots<'_>) -> Result<Choice, CommandError> {
     let (choice, _) = Choice::fastest(layout, robots);
     if choice.engine != Engine::Generic {
         return Ok(choice);
     }
-    derive::into_cache(layout, file)?;
-    Choice::graph(layout).map_err(file_error(file))
+    derive::into_cache(layout, &arguments.layout, arguments.quiet)?;
+    Choice::graph(layout).map_err(file_error(&arguments.layout))
 }
 
 /// Name of the files of a quantity.

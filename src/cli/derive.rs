@@ -26,12 +26,15 @@ Examples:
 pub struct Arguments {
     /// The layout: a path, or the name of a shipped one.
     layout: String,
+    /// Show no progress.
+    #[arg(short, long)]
+    quiet: bool,
 }
 
 /// Derives the graph, proves it, and keeps it.
 pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
     let layout = layout::read(&arguments.layout, robots)?;
-    let (path, proof) = into_cache(&layout, &arguments.layout)?;
+    let (path, proof) = into_cache(&layout, &arguments.layout, arguments.quiet)?;
     print(&format!(
         "{}: the graph of {}, {} degrees of freedom\n{proof}\n",
         path.display(),
@@ -42,20 +45,28 @@ pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, Comman
 }
 
 /// Derives the graph of a layout, which is in `file`, and keeps it in the user's cache folder.
-pub fn into_cache(layout: &Layout, file: &str) -> Result<(PathBuf, Proof), CommandError> {
+pub fn into_cache(layout: &Layout, file: &str, quiet: bool) -> Result<(PathBuf, Proof), CommandError> {
     let path = cache_path(layout).map_err(file_error(file))?;
-    let progress = spinner("starting Python");
-    let Proved { text, proof, .. } = proved(layout, &[], file, &progress)?;
-    progress.finish_and_clear();
+    let progress = (!quiet).then(|| spinner("starting Python"));
+    let Proved { text, proof, .. } = proved(layout, &[], file, progress.as_ref())?;
+    progress.inspect(ProgressBar::finish_and_clear);
     keep(&path, &text)?;
     Ok((path, proof))
 }
 
-/// Derives the graph of a layout, which is in `file`, and proves it.
-pub fn proved(layout: &Layout, options: &[String], file: &str, progress: &ProgressBar) -> Result<Proved, CommandError> {
-    let text = generate::derive(layout, options, PYTHON_PACKAGE, &mut |line| show(progress, line));
+/// Derives the graph of a layout, which is in `file`, and proves it; without a spinner silently.
+pub fn proved(
+    layout: &Layout,
+    options: &[String],
+    file: &str,
+    progress: Option<&ProgressBar>,
+) -> Result<Proved, CommandError> {
+    let mut show = |line: &str| progress.into_iter().for_each(|progress| show(progress, line));
+    let text = generate::derive(layout, options, PYTHON_PACKAGE, &mut show);
     let text = text.map_err(file_error(file))?;
-    progress.set_message("comparing with the generic implementation");
+    if let Some(progress) = progress {
+        progress.set_message("comparing with the generic implementation");
+    }
     generate::complete(&text, layout).map_err(|source| {
         let exit_code = if matches!(source, GenerateError::Disagreement { .. }) { 1 } else { 2 };
         CommandError::File { file: file.to_owned(), source: source.into(), exit_code }

@@ -20,7 +20,8 @@ Examples:
 /// Compute every quantity of a robot at given states, as JSON.
 ///
 /// The standard output is an array with a result for each state, written as soon as the state is read. An invalid state ends
-/// the command with exit code 2; the array is then closed after the results of the states before it.
+/// the command with exit code 2. Its output is then no JSON: nothing where it is the first one, else an array that is not closed, so
+/// that what reads it does not take the results of the states before it for all.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -31,13 +32,18 @@ pub struct Arguments {
     /// The implementation of the dynamics.
     #[arg(long, value_enum, default_value_t = Dynamics::Auto)]
     dynamics: Dynamics,
+    /// Do not say which implementation computes the dynamics.
+    #[arg(short, long)]
+    quiet: bool,
 }
 
 /// Evaluates the states one by one.
 pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
     let layout = layout::read(&arguments.layout, robots)?;
     let choice = arguments.dynamics.choose(&layout, &arguments.layout, robots)?;
-    arguments.dynamics.announce(&choice, &arguments.layout, "");
+    if !arguments.quiet {
+        arguments.dynamics.announce(&choice, &arguments.layout, "");
+    }
     let model = choice.model(&layout);
     let (input, name): (Box<dyn BufRead>, _) = if arguments.states == "-" {
         (Box::new(BufReader::new(io::stdin())), "standard input")
@@ -47,25 +53,21 @@ pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, Comman
         (Box::new(BufReader::with_capacity(1 << 16, file)), arguments.states.as_str())
     };
     let mut out = io::stdout().lock();
-    out.write_all(b"[")?;
-    let result = evaluate_all(&*model, &layout, input, name, &mut out);
-    if matches!(result, Err(CommandError::Print(_))) {
-        return result.map(|()| ExitCode::SUCCESS);
-    }
-    // the array is closed after an invalid state too, which stays what the command found if that fails
-    let closed = out.write_all(b"\n]\n").and_then(|()| out.flush());
-    result?;
-    closed?;
+    let count = evaluate_all(&*model, &layout, input, name, &mut out)?;
+    // only now: after an invalid state the array stays open
+    out.write_all(if count == 0 { b"[\n]\n" } else { b"\n]\n" })?;
+    out.flush()?;
     Ok(ExitCode::SUCCESS)
 }
 
+/// How many states there were; the array begins with the first result.
 fn evaluate_all(
     model: &AnyModel<f64>,
     layout: &Layout,
     input: Box<dyn BufRead>,
     name: &str,
     out: &mut impl Write,
-) -> Result<(), CommandError> {
+) -> Result<u64, CommandError> {
     let mut states = States::new(input, layout);
     let mut line = Vec::new();
     let mut index = 0;
@@ -76,10 +78,10 @@ fn evaluate_all(
         });
         let values = values.map_err(file_error(&format!("{name}: line {}: state {index}", states.line())))?;
         line.clear();
-        line.extend_from_slice(if index == 0 { b"\n" } else { b",\n" });
+        line.extend_from_slice(if index == 0 { b"[\n" } else { b",\n" });
         serde_json::to_writer(&mut line, &result_to_json(&values, &state.targets)).map_err(io::Error::from)?;
         out.write_all(&line)?;
         index += 1;
     }
-    Ok(())
+    Ok(index)
 }

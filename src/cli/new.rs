@@ -99,7 +99,7 @@ fn graph(layout: &Layout, file: &str) -> Result<String, CommandError> {
         }
         let path = cache_path(layout).map_err(file_error(file))?;
         let progress = spinner("starting Python");
-        let proved = derive::proved(layout, &[], file, &progress)?;
+        let proved = derive::proved(layout, &[], file, Some(&progress))?;
         progress.finish_and_clear();
         keep(&path, &proved.text)?;
         return Ok(proved.text);

@@ -12,7 +12,13 @@ fn eval(layout: &str, states: &str, dynamics: &str) -> (i32, Vec<Value>, String)
     let mut command = Command::from_std(command());
     let output = command.args(["eval", layout, "-", "--dynamics", dynamics]).write_stdin(states).output();
     let (code, out, err) = said(output.expect("it runs"));
-    let results = if out.is_empty() { Vec::new() } else { serde_json::from_str(&out).expect("a JSON array") };
+    let array = match code {
+        _ if out.is_empty() => "[]".to_owned(),
+        0 => out,
+        // the results of the states before an invalid one are no whole array
+        _ => out + "]",
+    };
+    let results = serde_json::from_str(&array).expect("a JSON array");
     (code, results, err)
 }
 
@@ -115,6 +121,34 @@ fn numbers_round_trip() {
 #[test]
 fn no_states_give_no_results() {
     assert_eq!(eval("dual_arm_3r", " [ ]\n", "generated"), (0, Vec::new(), String::new()));
+}
+
+/// What reads the results cannot take those before an invalid state for all: there are none, or their array stays open.
+#[test]
+fn results_before_an_invalid_state_are_no_json() {
+    let (states, _) = reference();
+    let said = |states: Value| {
+        let mut command = Command::from_std(command());
+        command.args(["eval", "dual_arm_3r", "-", "-q"]).write_stdin(states.to_string());
+        said(command.output().expect("it runs"))
+    };
+    let (code, out, err) = said(json!([1, states[0]]));
+    assert_eq!((code, out.as_str()), (2, ""), "{err}");
+    let (code, out, err) = said(json!([states[0], 1]));
+    assert!(code == 2 && out.starts_with("[\n{"), "{err}");
+    assert!(serde_json::from_str::<Value>(&out).is_err_and(|error| error.is_eof()), "{out}");
+}
+
+#[test]
+fn what_computes_is_not_said_where_it_is_to_be_quiet() {
+    let said = |quiet: &[&str]| {
+        let mut command = Command::from_std(command());
+        command.args(["eval", "dual_arm_3r", "-"]).args(quiet).write_stdin("[]");
+        said(command.output().expect("it runs"))
+    };
+    let (code, out, err) = said(&[]);
+    assert!(code == 0 && out == "[\n]\n" && err.starts_with("dynamics: "), "{err}");
+    assert_eq!(said(&["-q"]), (0, "[\n]\n".to_owned(), String::new()));
 }
 
 /// Error for two valid states and one made invalid by `change`: exit code 2 and two results.

@@ -170,7 +170,7 @@ pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, Comman
     }
     let progress = spinner("starting Python");
     let Proved { graph, text, proof } =
-        derive::proved(&layout, &arguments.derivatives(), &arguments.layout, &progress)?;
+        derive::proved(&layout, &arguments.derivatives(), &arguments.layout, Some(&progress))?;
     progress.set_message("rendering");
     let product = if arguments.fmu {
         Product::Fmu(fmu::render(&graph, &layout, arguments)?)
