@@ -84,6 +84,10 @@ pub const CONSTRAINT_BOUND: f64 = 1e-10;
 /// Largest penetration of a target by an end effector that does not hold it, m.
 pub const PENETRATION_BOUND: f64 = 1e-6;
 
+/// What to compute in place of a bounce that comes to rest on its target.
+const INSTEAD: &str = "contacts at rest are not modelled; `kind = \"pin\"` or `\"rigid\"` holds what stays in contact, a larger \
+                       `restitution` lets it go, and a shorter `post_impact.duration` ends before it comes to rest";
+
 /// Makes a model of the robot without targets.
 pub type ModelFactory<'a> = &'a dyn Fn() -> Box<dyn CloneModel>;
 
@@ -236,8 +240,9 @@ pub enum StudyError {
     },
     /// Too many impacts.
     #[error(
-        "case `{case}`: {impacts} impacts by {time} s after the first, the last with target `{target}`: bounces that come \
-         to rest on each other are not modelled"
+        "case `{case}`: {impacts} impacts by {time} s after the first, the last with target `{target}`: bounces that \
+         come to rest on each other are not modelled; `kind = \"pin\"` or `\"rigid\"` holds what stays in contact, and another \
+         `restitution` or a shorter `post_impact.duration` has fewer impacts"
     )]
     Chatter {
         /// The case's name.
@@ -475,7 +480,7 @@ impl Study {
             let depth = depths.fold(0.0, Real::maximum);
             if exceeds(depth, PENETRATION_BOUND) {
                 found.push(format!(
-                    "{}: an end effector is {depth:.2e} m inside a target that it does not hold: contacts at rest are not modelled",
+                    "{}: an end effector is {depth:.2e} m inside a target that it does not hold: {INSTEAD}",
                     case.name
                 ));
             }

@@ -300,6 +300,10 @@ fn depths_are_audited() {
     assert_eq!((study.cases[0].closest.len(), inside(&study)), (2, 0));
     study.cases[0].closest[1].distance = -1e-3;
     assert_eq!(inside(&study), 1);
+    let failures = study.audit_failures();
+    for instead in ["`kind = \"pin\"` or `\"rigid\"`", "`restitution`", "shorter `post_impact.duration`"] {
+        assert!(failures.iter().any(|line| line.contains(instead)), "{instead}: {failures:?}");
+    }
 }
 
 /// A light box that bounces without loss between two end effectors does not stop: after a thousand more impacts than the
@@ -326,6 +330,7 @@ fn bounces_without_end() {
         Scenario::parse(&text, "it.toml", &file("scenarios"), registry::SHIPPED).unwrap_or_else(|e| panic!("{e}"));
     scenario.clearance.only_given = true;
     let error = run(&scenario).expect_err("bounces");
+    assert!(error.to_string().contains("`kind = \"pin\"` or `\"rigid\"`"), "{error}");
     let StudyError::Chatter { impacts, time, target, .. } = error else { panic!("{error}") };
     assert_eq!((impacts, target.as_str()), (1001, "t"));
     // the box turns a little after all
