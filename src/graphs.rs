@@ -30,6 +30,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::{fs, io};
 
+/// Of graphs, in the user's cache folder.
+const FOLDER: &str = "graphs";
+
 /// A graph that the program carries.
 struct Carried {
     name: &'static str,
@@ -152,6 +155,24 @@ pub fn derived(layout: &Layout) -> Result<Option<FoundGraph>, NoGraph> {
     Ok(Some(FoundGraph { evaluator: evaluator(&text, layout).map_err(unusable)?, origin, text: Cow::Owned(text) }))
 }
 
+/// The graphs in the user's cache folder that are as they were derived and proved: their files, in order, and the numbers of
+/// links of the arms of their structures.
+#[must_use]
+pub fn kept() -> Vec<(PathBuf, Vec<usize>)> {
+    let files = home().ok().and_then(|home| fs::read_dir(home.join(FOLDER)).ok()).into_iter().flatten().flatten();
+    let mut graphs: Vec<_> =
+        files.map(|file| file.path()).filter_map(|path| Some((proved_links(&path)?, path))).collect();
+    graphs.sort_by(|(_, a), (_, b)| a.cmp(b));
+    graphs.into_iter().map(|(links, path)| (path, links)).collect()
+}
+
+fn proved_links(path: &Path) -> Option<Vec<usize>> {
+    let text = path.extension().filter(|extension| *extension == "json").and_then(|_| fs::read_to_string(path).ok())?;
+    let is_proved = fs::read_to_string(hash_path(path)).ok()? == sha256(&text);
+    let evaluator = graph::read_any(&text).ok().filter(|_| is_proved).map(|graph| Evaluator::new(&graph))?.ok()?;
+    Some(evaluator.structure().links.clone())
+}
+
 /// The evaluator of a graph that is to have the layout's structure.
 fn evaluator(text: &str, layout: &Layout) -> Result<Arc<Evaluator>, String> {
     let evaluator =
@@ -184,5 +205,5 @@ pub fn hash_path(graph: &Path) -> PathBuf {
 /// [`DerivationError::NoHome`].
 pub fn cache_path(layout: &Layout) -> Result<PathBuf, DerivationError> {
     let key = format!("{}\n{}\n{}", graph::FORMAT, package_hash(PYTHON_PACKAGE), fingerprint(layout));
-    Ok(home()?.join("graphs").join(format!("{:.32}.json", sha256(&key))))
+    Ok(home()?.join(FOLDER).join(format!("{:.32}.json", sha256(&key))))
 }

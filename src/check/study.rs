@@ -86,7 +86,7 @@ fn start(scenario: &Scenario) -> String {
             let [px, py] = momentum.linear_momentum;
             let energy = short(momentum.kinetic_energy);
             let momentum = list(&[momentum.angular_momentum, px, py]);
-            format!("{place}; momentum [l, px, py] {momentum} N m s, N s; {energy} J")
+            format!("{place}; momentum [l, px, py] {momentum} N\u{a0}m\u{a0}s, N\u{a0}s; {energy} J")
         }
         Ok(_) | Err(_) => format!("at rest, {place}"),
     }
@@ -138,7 +138,7 @@ fn tracking(scenario: &Scenario) -> String {
 }
 
 fn actuation(Actuation { torque_limits, steps_per_sample }: &Actuation) -> String {
-    let limits = torque_limits.as_ref().map(|limits| format!("; at most {} N m", gains(limits)));
+    let limits = torque_limits.as_ref().map(|limits| format!("; at most {} N\u{a0}m", gains(limits)));
     let samples = steps_per_sample.map(|steps| format!("; sampled every {}, and held", count(steps as usize, "step")));
     limits.unwrap_or_default() + &samples.unwrap_or_default()
 }
@@ -147,12 +147,14 @@ fn post_capture_law(control: &PostCaptureControl) -> String {
     match control {
         PostCaptureControl::None => "none".to_owned(),
         PostCaptureControl::Hold { proportional_gain, derivative_gain } => {
-            format!("hold, {} N m/rad, {} N m s/rad", gains(proportional_gain), gains(derivative_gain))
+            format!("hold, {} N\u{a0}m/rad, {} N\u{a0}m\u{a0}s/rad", gains(proportional_gain), gains(derivative_gain))
         }
-        PostCaptureControl::Damping { derivative_gain } => format!("damping, {} N m s/rad", gains(derivative_gain)),
+        PostCaptureControl::Damping { derivative_gain } => {
+            format!("damping, {} N\u{a0}m\u{a0}s/rad", gains(derivative_gain))
+        }
         PostCaptureControl::Stabilise { derivative_gain, base_gain, base_torque_limit } => {
             let rates = format!("stabilise, joints {} 1/s, base {} 1/s", gains(derivative_gain), short(*base_gain));
-            let torque = base_torque_limit.map(|limit| format!("; base torque of at most {} N m", short(limit)));
+            let torque = base_torque_limit.map(|limit| format!("; base torque of at most {} N\u{a0}m", short(limit)));
             rates + &torque.unwrap_or_default()
         }
         PostCaptureControl::Own { name, numbers } => own_law(name, numbers),
@@ -178,7 +180,7 @@ fn law(scenario: &Scenario) -> String {
         Tracking::InverseDynamics => "exact, torques from inverse dynamics".to_owned(),
         Tracking::Own { name, numbers } => own_law(name, numbers),
         Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => {
-            format!("PD, {} N m/rad, {} N m s/rad", gains(proportional_gain), gains(derivative_gain))
+            format!("PD, {} N\u{a0}m/rad, {} N\u{a0}m\u{a0}s/rad", gains(proportional_gain), gains(derivative_gain))
         }
     }
 }

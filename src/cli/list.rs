@@ -3,15 +3,16 @@
 use super::{CommandError, print_product};
 use crate::engine;
 use crate::format::{Choice, Shape, TableFormat};
+use crate::graphs::kept;
 use crate::layout::Layout;
-use crate::plain_text::wrap;
+use crate::plain_text::{count, wrap};
 use crate::program::Program;
 use crate::scenario::{self, LawFormat, LawNumber};
 use std::process::ExitCode;
 
 /// List what this program knows by name.
 ///
-/// Those are robots, with what computes them, and the names that scenarios choose from: trajectories, control laws,
+/// Those are robots, with what computes them, the graphs in your cache folder, and the names that scenarios choose from: trajectories, control laws,
 /// integrators, kinds of contacts.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {}
@@ -24,10 +25,17 @@ pub fn run(_: &Arguments, program: Program<'_>) -> Result<ExitCode, CommandError
     let mut text = String::from("robots: arms of links, what computes them\n");
     for (name, toml) in program.robots.layouts() {
         let layout = Layout::parse(toml, name)?;
-        let links: Vec<_> = layout.arms.iter().map(|arm| arm.links.len().to_string()).collect();
-        let arms = if links.len() == 1 { "arm" } else { "arms" };
+        let links: Vec<_> = layout.arms.iter().map(|arm| arm.links.len()).collect();
         let engine = engine::Choice::fastest(&layout, program.robots).0.engine.name();
-        text += &item(name, &format!("{} {arms} of {}, {engine}", links.len(), links.join(" + ")));
+        text += &item(name, &format!("{}, {engine}", arms(&links)));
+    }
+    let kept = kept();
+    if let Some(folder) = kept.first().and_then(|(path, _)| path.parent()) {
+        text.extend(["\ngraphs that were derived, in ", &folder.display().to_string(), "\n"]);
+        for (path, links) in &kept {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            text += &item(&name, &arms(links));
+        }
     }
     let laws = program.law_formats();
     let mut all = Vec::new();
@@ -43,6 +51,12 @@ pub fn run(_: &Arguments, program: Program<'_>) -> Result<ExitCode, CommandError
     }
     print_product(&text)?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// The arms of a robot by their numbers of links.
+fn arms(links: &[usize]) -> String {
+    let each: Vec<_> = links.iter().map(usize::to_string).collect();
+    format!("{} of {}", count(links.len(), "arm"), each.join(" + "))
 }
 
 /// What the keys of a table, and of those in it, choose from, with the keys that have the same choices.

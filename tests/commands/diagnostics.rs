@@ -322,7 +322,7 @@ const SCENARIO_EDITS: &[Edit] = &[
         "final_end_effector_twists = [[0, -0.1, 0]]\n",
         "",
         5,
-        &["missing key `approach.final_end_effector_twists`", "final_joint_rates"],
+        &["missing key `approach.final_end_effector_twists`", "final_joint_rates", "zeros to end at rest"],
     ),
     (
         "final_end_effector_twists",

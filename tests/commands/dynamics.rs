@@ -124,6 +124,15 @@ fn a_derived_graph_serves_its_structure() {
     let mut graphs: Vec<_> = graphs.map(|entry| entry.expect("a file").path()).collect();
     graphs.sort();
     let [graph, hash] = <[_; 2]>::try_from(graphs).expect("a graph and its hash");
+    let listed = || {
+        let mut list = command();
+        let (code, out, err) =
+            said(list.env("PLANAR_CAPTURE_HOME", folder.path()).arg("list").output().expect("it runs"));
+        assert_eq!((code, err.as_str()), (0, ""));
+        let name = graph.file_name().expect("a name").to_string_lossy();
+        out.contains(&format!("{name} 2 arms of 3 + 2\n"))
+    };
+    assert!(listed(), "a graph in the cache folder");
     let proved = fs::read_to_string(&hash).expect("a hash");
     let whole = fs::read_to_string(&graph).expect("a graph");
     let carried = fs::read_to_string(file("codegen/structures/general_2x3.json")).expect("a graph");
@@ -147,6 +156,7 @@ fn a_derived_graph_serves_its_structure() {
         let (code, err, _) = run(&scenario, folder.path(), &["--dynamics", "graph"]);
         assert!(code == 2 && err.contains(problem) && err.contains(".json"), "{err}");
     }
+    assert!(!listed(), "what is not as it was proved");
     assert_eq!(derive().0, 0);
     let [again, its_hash] = [&graph, &hash].map(|file| fs::read_to_string(file).expect("a file"));
     assert_eq!((again, its_hash), (whole, proved), "derived again");

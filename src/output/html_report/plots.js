@@ -83,8 +83,12 @@ function marks(line) {
   };
 }
 
-/** The values at the current time, in the legend. */
-const showValues = (plot, line) => plot.setLegend({ idx: place(line, Math.min(state.time, line.end)) }, false);
+/** The values of the row that is nearest to the current time, in the legend. */
+function showValues(plot, line) {
+  const time = Math.min(state.time, line.end);
+  const before = place(line, time), after = Math.min(before + 1, line.time.length - 1);
+  plot.setLegend({ idx: line.time[after] - time < time - line.time[before] ? after : before }, false);
+}
 
 /** The range, extended to `span` about its middle if it is smaller. */
 function widened(low, high, span) {

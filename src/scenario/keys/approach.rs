@@ -56,8 +56,8 @@ pub(super) static APPROACH: TableFormat = TableFormat {
             "final_joint_rates",
             Shape::List(&JOINT_RATE, Count::Joints),
             Default::Words("the final velocities are those of the end effectors"),
-            "the final velocities, arm by arm; these or `final_end_effector_twists` must be given unless the trajectory \
-             ends at rest",
+            "the final velocities, arm by arm; with `trajectory = \"quartic\"` or `\"quintic\"` these or \
+             `final_end_effector_twists` must be given, zeros to end at rest",
         )
         .with("tracking", IN_JOINT_SPACE)
         .example("[0.0, 0.0, 0.0, 0.0, 0.0, 0.0]"),

@@ -38,21 +38,21 @@ pub(super) static TARGET: TableFormat = TableFormat {
         Key::optional(
             "contact",
             Shape::OneOrList(&POINT, Count::Contacts),
-            Default::Words("required; found where `contact.detection` is `\"event\"`"),
+            Default::Words("required, except with `contact.detection = \"event\"`, which finds it"),
             "from its COM to the contact point, inertial axes at the impact; one for each of several arms",
         )
         .start("[0.0, 0.5]"),
         Key::optional(
             "radius",
             Shape::Number(NumberRule::positive("a radius", "m")),
-            Default::Words("its outline is the `polygon`"),
+            Default::Words("none where `polygon` is given"),
             "its outline: a disc; at most 1e6 times the robot's reach",
         )
         .start("0.5"),
         Key::optional(
             "polygon",
             Shape::List(&POSITION, Count::Any),
-            Default::Words("its outline is the disc"),
+            Default::Words("none where `radius` is given"),
             "its outline: corners in its own frame that contain the COM, the origin; at most 1e6 times the robot's reach",
         )
         .example("[[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]]"),

@@ -155,7 +155,7 @@ fn final_rates(table: &Table<'_>, trajectory: Option<TrajectoryKind>, joints: &J
         }
         (None, None) if !KEYS.iter().any(|key| table.is_misspelt(key)) => table.reject(
             "missing key `approach.final_end_effector_twists`, expected one [ω, vx, vy] per arm \
-             (or `approach.final_joint_rates`, one rate per joint)",
+             (or `approach.final_joint_rates`, one rate per joint; zeros to end at rest)",
             "the trajectory needs rates at its end",
         ),
         _ => {}

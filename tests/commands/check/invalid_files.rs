@@ -91,6 +91,7 @@ const BROKEN: &[Broken] = &[
     ("no quotes", "\"left\"", "left", &[":6:8", "`name = left`", "text stands in quotes"], 1),
     ("quotes of a text processor", "\"left\"", "“left”", &[":6:8", "`name = “left”`", "straight quotes"], 1),
     ("an open string", "\"left\"", "\"left", &[":6:13", "`name = \"left`", "ends with the quote"], 1),
+    ("another letter", "mass = 500.0", "mäss = 500.0", &[":3:2", "stands in quotes"], 1),
     ("a colon", "mass = 500.0", "mass: 500.0", &[":3:5", "`mass: 500.0`", "write `key = value`"], 1),
     ("a table twice", "[[arm]]", "[base]\nmass = 1\n[[arm]]", &[":5:2", "`[base]`", "each key is given once"], 2),
     (

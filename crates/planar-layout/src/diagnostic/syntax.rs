@@ -57,5 +57,8 @@ fn hint(message: &str, found: &str) -> Option<&'static str> {
     if message.contains("must be quoted") && found.starts_with(['“', '”', '„', '‘', '’', '`', '«']) {
         return Some("text stands in straight quotes: `\"arm1\"`");
     }
+    if message.contains("invalid unquoted key") && found.starts_with(|c: char| !c.is_ascii()) {
+        return Some("a key with other letters than a to z stands in quotes: `\"größe\" = 1.0`");
+    }
     HINTS.iter().find(|(part, _)| message.contains(part)).map(|(_, hint)| *hint)
 }
