@@ -316,7 +316,7 @@ fn balances(scenario: &Scenario, study: &Study) -> String {
         for event in impacts(study, case) {
             let models = [("exact", Some(&event.solution.exact)), ("paper", event.solution.paper.as_ref())];
             for (model, result) in models.into_iter().filter_map(|(model, result)| Some((model, result?))) {
-                let [l, px, py] = result.momentum_jump.map(|part| format!("{part:.1e}"));
+                let [l, px, py] = result.momentum_jump.map(two_digits);
                 let [before, after] =
                     [result.kinetic_energy_before, result.kinetic_energy_after].map(|energy| fixed(energy, 6));
                 let time = time_of(scenario, event.time);
@@ -395,6 +395,18 @@ fn line(text: &str) -> String {
     sentence("  ", text)
 }
 
+/// Two significant digits, with a power of ten only for the very small and the large.
+fn two_digits(value: f64) -> String {
+    match value.abs() {
+        0.0 => "0".to_owned(),
+        size if (9.95..100.0).contains(&size) => format!("{value:.0}"),
+        size if (0.995..9.95).contains(&size) => format!("{value:.1}"),
+        size if (0.0995..0.995).contains(&size) => format!("{value:.2}"),
+        size if (0.00995..0.0995).contains(&size) => format!("{value:.3}"),
+        _ => format!("{value:.1e}"),
+    }
+}
+
 /// With this number of decimals; zero has no sign.
 fn fixed(value: f64, digits: usize) -> String {
     let text = format!("{value:.digits$}");
@@ -406,4 +418,15 @@ fn fixed(value: f64, digits: usize) -> String {
 
 fn list(values: &[f64], digits: usize) -> String {
     values.iter().map(|value| fixed(*value, digits)).collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::two_digits;
+
+    #[test]
+    fn numbers_have_powers_of_ten_only_where_they_need_them() {
+        let shown = [0.0, -0.0, 1.0, 0.9123, -0.0204, 0.996, 9.96, 42.4, 123.0, 8.7e-19].map(two_digits);
+        assert_eq!(shown, ["0", "0", "1.0", "0.91", "-0.020", "1.0", "10", "42", "1.2e2", "8.7e-19"]);
+    }
 }
