@@ -403,17 +403,17 @@ fn targets_that_are_never_met_are_named() {
         let text = far.replace("[1.5, -2.0]", position).replace("[0.2, 0.0, 0.0]", twist);
         inspect_text(&text).warnings.to_string()
     };
-    let always = shown("[9.0, 0.1]", "[0.2, 0.0, 0.0]");
-    assert!(always.contains("`target[0].position` is [9.0, 0.1]: no end effector can meet `ball`"), "{always}");
+    let always = shown("[5.5, 0.1]", "[0.2, 0.0, 0.0]");
+    assert!(always.contains("`target[0].position` is [5.5, 0.1]: no end effector can meet `ball`"), "{always}");
     assert_eq!(always.matches("can meet").count(), 1, "{always}");
     assert!(!always.contains(" mm "), "{always}");
     let millimetres = shown("[3600, 100]", "[0.2, 0.0, 0.0]");
     assert!(millimetres.contains("(3600, 100) mm are (3.6, 0.1) m"), "{millimetres}");
     // it comes, and passes, but not where it is at rest
-    let coming = shown("[9.0, 0.1]", "[0.0, -0.9, 0.0]");
+    let coming = shown("[5.5, 0.1]", "[0.0, -0.9, 0.0]");
     assert!(coming.contains("`case[1].target_twists` is"), "{coming}");
     assert_eq!(coming.matches("can meet").count(), 1, "{coming}");
-    let away = shown("[9.0, 0.1]", "[0.0, 0.9, 0.0]");
+    let away = shown("[5.5, 0.1]", "[0.0, 0.9, 0.0]");
     assert!(away.contains("`target[0].position` is"), "{away}");
     assert!(!shown("[3.0, 0.1]", "[0.0, 0.1, 0.0]").contains("can meet"));
 }
