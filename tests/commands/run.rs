@@ -151,7 +151,7 @@ fn the_table_is_the_summary() {
             // with two digits, whether with a power of ten or without
             let two_digits = |value: f64| format!("{value:.1e}");
             let jump: Vec<String> = jump.map(|j| two_digits(j.as_f64().expect("a number"))).collect();
-            let wanted = vec![(*case).to_owned(), model.to_owned(), energy("before"), energy("after")];
+            let wanted = [(*case).to_owned(), model.to_owned(), energy("before"), energy("after")];
             let found = rows(case, model);
             assert_eq!((found.len(), &found[0][..4]), (1, &wanted[..]));
             let shown = found[0][4..].iter().map(|text| two_digits(text.parse().expect("a number")));
