@@ -148,7 +148,7 @@ pub fn derived(layout: &Layout) -> Result<Option<FoundGraph>, NoGraph> {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
         Err(error) => return Err(unusable(error.to_string())),
     };
-    if fs::read_to_string(hash_path(&path)).ok().as_deref() != Some(&*sha256(&text)) {
+    if !is_proved(&path, &text) {
         return Err(unusable("it is not as it was derived and proved".to_owned()));
     }
     let origin = "the graph derived for its structure".to_owned();
@@ -168,9 +168,13 @@ pub fn kept() -> Vec<(PathBuf, Vec<usize>)> {
 
 fn proved_links(path: &Path) -> Option<Vec<usize>> {
     let text = path.extension().filter(|extension| *extension == "json").and_then(|_| fs::read_to_string(path).ok())?;
-    let is_proved = fs::read_to_string(hash_path(path)).ok()? == sha256(&text);
-    let evaluator = graph::read_any(&text).ok().filter(|_| is_proved).map(|graph| Evaluator::new(&graph))?.ok()?;
-    Some(evaluator.structure().links.clone())
+    let evaluator = is_proved(path, &text).then(|| graph::read_any(&text).and_then(|graph| Evaluator::new(&graph)))?;
+    Some(evaluator.ok()?.structure().links.clone())
+}
+
+/// Whether the text of a graph in the cache folder is as it was derived and proved.
+fn is_proved(path: &Path, text: &str) -> bool {
+    fs::read_to_string(hash_path(path)).is_ok_and(|hash| hash == sha256(text))
 }
 
 /// The evaluator of a graph that is to have the layout's structure.

@@ -136,10 +136,7 @@ impl CaseRunner<'_> {
     }
 
     fn compute(&self, row: &mut Row, sample: f64, keep: Keep<'_>) -> Result<(), Failure> {
-        let refused = |report: crate::diagnostic::Report| {
-            let sentences: Vec<String> = report.sentences().collect();
-            (Status::Refused, sentences.join("; "))
-        };
+        let refused = |report: crate::diagnostic::Report| (Status::Refused, report.sentence());
         let scenario = self.variation.scenario(&row.values).map_err(refused)?;
         let model = self.choice.model(&scenario.layout);
         let study = study_registered(&scenario, &|| model.clone_box(), self.laws, sample, &mut Silent)

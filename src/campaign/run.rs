@@ -114,16 +114,12 @@ impl Plan {
             }
         }
         let sweep = &campaign.sweep;
-        let count = |block: u64| {
-            let cases = sweep.cases_of(block);
-            cases.end - cases.start
-        };
         let origin = origin(campaign);
         let (mut blocks, mut present, mut damaged) = (Vec::new(), 0, Vec::new());
         for block in (0..sweep.blocks()).filter(|block| block % shard.of == shard.number - 1) {
             match block_file::find(folder, block, &origin, sweep.cases_of(block)) {
                 Ok(Found::Whole) => {
-                    present += count(block);
+                    present += sweep.count_of(block);
                     continue;
                 }
                 Ok(Found::Fewer | Found::Nothing) => {}
@@ -131,7 +127,7 @@ impl Plan {
             }
             blocks.push(block);
         }
-        let cases = blocks.iter().map(|block| count(*block)).sum();
+        let cases = blocks.iter().map(|block| sweep.count_of(*block)).sum();
         Ok(Self { blocks, cases, present, damaged })
     }
 }
@@ -141,7 +137,7 @@ impl Plan {
 pub fn missing(campaign: &Campaign, folder: &Path) -> u64 {
     let sweep = &campaign.sweep;
     let absent = (0..sweep.blocks()).filter(|block| !block_file::path(folder, *block).exists());
-    absent.map(|block| sweep.cases_of(block)).map(|cases| cases.end - cases.start).sum()
+    absent.map(|block| sweep.count_of(block)).sum()
 }
 
 /// The rows of files that are not complete.

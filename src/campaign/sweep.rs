@@ -141,6 +141,13 @@ impl Sweep {
         block * self.block..((block + 1) * self.block).min(self.cases)
     }
 
+    /// How many cases a block has.
+    #[must_use]
+    pub fn count_of(&self, block: u64) -> u64 {
+        let cases = self.cases_of(block);
+        cases.end - cases.start
+    }
+
     /// What is to be said of statistics of so many of its cases; `None` of all of them.
     #[must_use]
     pub fn of_a_part(&self, cases: u64) -> Option<String> {

@@ -23,10 +23,7 @@ pub(super) fn warnings(campaign: &Campaign, of_scenario: &[Warning], robots: Rob
     let medians: Vec<_> = varied.iter().map(|varied| varied.distribution.quantile(0.5)).collect();
     let about = |values: &[VariedValue], with_path: bool| match campaign.variation.scenario(values) {
         Ok(scenario) => findings(&scenario, with_path, robots),
-        Err(report) => {
-            let why = report.sentences().collect::<Vec<_>>().join("; ");
-            vec![warning("", why, NO_RESULT)]
-        }
+        Err(report) => vec![warning("", report.sentence(), NO_RESULT)],
     };
     let mut said: Vec<Warning> = of_scenario.to_vec();
     let mut found = Vec::new();

@@ -31,8 +31,7 @@ pub(super) fn keys(
             if distribution.is_some()
                 && let Err(report) = variation.scenario(std::slice::from_ref(median))
             {
-                let problems: Vec<String> = report.sentences().collect();
-                refuse(&format!("with {median}, the median of its distribution, {}", problems.join("; ")));
+                refuse(&format!("with {median}, the median of its distribution, {}", report.sentence()));
                 return None;
             }
             Some(path)

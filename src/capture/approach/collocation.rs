@@ -15,9 +15,9 @@ pub(crate) struct Collocation {
     /// In order.
     pub(crate) points: [f64; POINTS],
     /// ∫₀¹ of the polynomial through values at the points is their sum with these; exact up to degree 15.
-    pub(crate) weights: [f64; POINTS],
+    weights: [f64; POINTS],
     /// Of each point, in the integrals up to all points; exact up to degree 7.
-    pub(crate) partial_weights: [[f64; POINTS]; POINTS],
+    partial_weights: [[f64; POINTS]; POINTS],
 }
 
 impl Collocation {

@@ -70,7 +70,7 @@ impl PathWorkspace {
         time: f64,
     ) -> [FrameState; 2] {
         let end = part.span().iter().position(|end| end.to_bits() == time.to_bits());
-        let between = if end.is_none() { Some(pair.frames) } else { None };
+        let between = end.is_none().then_some(pair.frames);
         let known = &mut self.instants[end.unwrap_or(2)];
         if (known.interval, known.time.to_bits(), known.between) != (self.interval, time.to_bits(), between) {
             (known.interval, known.time, known.between) = (self.interval, time, between);

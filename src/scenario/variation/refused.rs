@@ -38,13 +38,13 @@ impl Variation {
         let together = match read(keys) {
             Ok(read) => return Ok(read),
             Err(Refusal::Key(unusable)) => return Err(Refused::Keys(vec![unusable])),
-            Err(Refusal::Values(report)) => sentence(&report),
+            Err(Refusal::Values(report)) => report.sentence(),
         };
         if let Err(Refusal::Values(report)) = read(&[]) {
-            return Err(Refused::Without(sentence(&report)));
+            return Err(Refused::Without(report.sentence()));
         }
         let alone = keys.chunks(1).enumerate().filter_map(|(key, one)| match read(one) {
-            Err(Refusal::Values(report)) => Some(Unusable { key, why: sentence(&report) }),
+            Err(Refusal::Values(report)) => Some(Unusable { key, why: report.sentence() }),
             _ => None,
         });
         let alone: Vec<_> = alone.collect();
@@ -67,8 +67,4 @@ impl From<Report> for Refusal {
     fn from(report: Report) -> Self {
         Self::Values(report)
     }
-}
-
-fn sentence(report: &Report) -> String {
-    report.sentences().collect::<Vec<_>>().join("; ")
 }

@@ -145,17 +145,13 @@ impl Report {
         self.problems.len()
     }
 
-    /// The problems as one line of text each, without their places: for a text that is no file of the user's.
-    pub fn sentences(&self) -> impl Iterator<Item = String> {
-        self.problems.iter().map(|problem| {
-            let Diagnostic { message, label, help, .. } = problem;
-            [Some(message), label.as_ref(), help.as_ref()]
-                .into_iter()
-                .flatten()
-                .map(String::as_str)
-                .collect::<Vec<_>>()
-                .join("; ")
-        })
+    /// The problems in one line of text, without their places: for a text that is no file of the user's.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        let parts = self.problems.iter().flat_map(|Diagnostic { message, label, help, .. }| {
+            [Some(message), label.as_ref(), help.as_ref()].into_iter().flatten()
+        });
+        parts.map(String::as_str).collect::<Vec<_>>().join("; ")
     }
 
     /// This report followed by another.

@@ -1,6 +1,6 @@
 //! Lengths of all links that were probably meant in mm.
 
-use super::{Arm, Layout, Link};
+use super::{Layout, Link};
 
 /// Robots do not reach that far, m.
 const LARGEST_REACH: f64 = 100.0;
@@ -28,12 +28,10 @@ impl Layout {
     /// as point masses in their length.
     #[must_use]
     pub fn millimetres(&self) -> Option<Millimetres> {
-        let links = |(i, arm): (usize, &Arm)| -> Vec<(usize, usize, Link)> {
-            arm.links.iter().enumerate().map(|(k, link)| (i, k, link.clone())).collect()
-        };
-        let long = self.arms.iter().enumerate().flat_map(links).filter(|(.., link)| link.length > 0.0);
-        let long: Vec<_> = long.collect();
-        let (arm, link, Link { length, .. }) = long.first()?.clone();
+        let arms = self.arms.iter().enumerate();
+        let links = arms.flat_map(|(i, arm)| arm.links.iter().enumerate().map(move |(k, link)| (i, k, link)));
+        let long: Vec<_> = links.filter(|(.., link)| link.length > 0.0).collect();
+        let &(arm, link, Link { length, .. }) = long.first()?;
         let reach = self.reach_from_base();
         let all = |is: &dyn Fn(&Link) -> bool| long.iter().all(|(.., link)| is(link));
         let why = if all(&|link| libm::sqrt(link.inertia / link.mass) < LEAST_RADIUS * link.length) {

@@ -116,20 +116,18 @@ fn stabilisation_of_a_robot_at_rest_saturates_nothing() {
     assert_eq!(Control::<f64>::base_torque(&law), Some(BaseTorque { torque: 0.0, saturated: false }));
 }
 
-/// The torques of end effector feedback in a state, with all components of paths that stay at these poses controlled or none:
-/// the torques, the singularity margin, and whether a limit acted.
+/// What a law of end effector feedback says of a state.
 struct Feedback {
-    law_limited: bool,
+    is_limited: bool,
     torques: [f64; JOINTS],
     margin: Option<f64>,
 }
 
+/// In one state after the other, with all components of paths that stay at these poses controlled, or none.
 fn feedback(states: &[(State<'_, f64>, [[f64; 3]; ARMS])], controlled: bool) -> Vec<Feedback> {
-    let poses: Vec<_> = states.iter().map(|(_, poses)| *poses).collect();
     let still = [[0.0; 3]; ARMS];
-    let mut found = Vec::new();
-    let mut before = None;
-    for ((state, _), poses) in states.iter().zip(&poses) {
+    let mut found: Vec<Feedback> = Vec::new();
+    for (state, poses) in states {
         let path = EndEffectorPath {
             initial_poses: poses,
             initial_twists: &still,
@@ -148,7 +146,7 @@ fn feedback(states: &[(State<'_, f64>, [[f64; 3]; ARMS])], controlled: bool) -> 
             singularity_threshold: 0.04,
             singularity_margin: None,
             // as the law was left
-            is_limited: before.unwrap_or(false),
+            is_limited: found.last().is_some_and(|before| before.is_limited),
             workspace: EndEffectorWorkspace {
                 generalized_inertia: &mut [f64::NAN; JOINTS * JOINTS],
                 generalized_bias: &mut [f64::NAN; JOINTS],
@@ -163,9 +161,8 @@ fn feedback(states: &[(State<'_, f64>, [[f64; 3]; ARMS])], controlled: bool) -> 
         };
         let mut torques = [f64::NAN; JOINTS];
         law.joint_torques(0.0, &DualArm::<f64>::default(), state, &mut torques).expect("torques");
-        before = Some(law.is_limited);
         let law: &dyn Control<f64> = &law;
-        found.push(Feedback { law_limited: law.is_limited(), torques, margin: law.singularity_margin() });
+        found.push(Feedback { is_limited: law.is_limited(), torques, margin: law.singularity_margin() });
     }
     found
 }
@@ -173,8 +170,8 @@ fn feedback(states: &[(State<'_, f64>, [[f64; 3]; ARMS])], controlled: bool) -> 
 /// With no component controlled there is no Jacobian to be singular, and no limit.
 #[test]
 fn nothing_controlled_has_no_singularity_margin() {
-    for Feedback { law_limited, torques, margin } in feedback(&[(AT_REST, [[0.0; 3]; ARMS])], false) {
-        assert_eq!((torques, margin, law_limited), ([0.0; JOINTS], None, false));
+    for Feedback { is_limited, torques, margin } in feedback(&[(AT_REST, [[0.0; 3]; ARMS])], false) {
+        assert_eq!((torques, margin, is_limited), ([0.0; JOINTS], None, false));
     }
 }
 
@@ -195,7 +192,7 @@ fn limits_of_end_effector_feedback_are_those_of_the_state() {
         &[(AT_REST, here), (AT_REST, far), (AT_REST, near), (straight, at_singularity), (AT_REST, near)],
         true,
     );
-    assert_eq!(found.iter().map(|found| found.law_limited).collect::<Vec<_>>(), [false, true, false, true, false]);
+    assert_eq!(found.iter().map(|found| found.is_limited).collect::<Vec<_>>(), [false, true, false, true, false]);
     let margins: Vec<_> = found.iter().map(|found| found.margin.expect("rows")).collect();
     assert!(margins[0] > 0.04 && margins[3] < 0.04, "{margins:?}");
 }
