@@ -1,7 +1,8 @@
 //! The traits of a robot's dynamics, eqs. (1), (2) and (10) to (16), for generated models and generic ones.
 //!
 //! Arguments are slices, whose lengths are checked once per call. Matrices are row-major. An input or result that is not
-//! finite and a singular system are an [`Error`]; no result is NaN.
+//! finite and a singular system are an [`Error`]; no result is NaN. Buffers for results then hold nothing of use, and no NaN
+//! of this call.
 //!
 //! # Example
 //! ```

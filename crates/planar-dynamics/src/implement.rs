@@ -18,13 +18,13 @@ macro_rules! implement_dynamics {
             };
             use $crate::error::Error;
             use $crate::manifest::ParameterKind;
+            use $crate::objection;
             use $crate::scalar::Real;
             use $crate::state::{Forces, State};
             use $crate::target::{LinkInertia, Target};
             use $crate::validate::{
-                all_finite, array, array_mut, finite, finite_configuration, finite_joint_arrays, finite_state,
-                finite_target, is_regular, joint_arrays, no_accelerations, no_reduced_dynamics, pivot, rows_mut, store,
-                store_rows,
+                all_finite, array, array_mut, finite, finite_configuration, finite_joint_arrays, finite_target,
+                is_regular_and_finite, joint_arrays, pivot, rows_mut, store, store_rows,
             };
 
             impl<T: Real> Robot<T> for Model<T> {
@@ -56,6 +56,8 @@ macro_rules! implement_dynamics {
             $crate::with_quantities!($crate::implement_functions);
 
             impl<T: Real> ReducedDynamics<T> for Model<T> {
+                #[cfg_attr(target_arch = "arm", inline(always))]
+                #[cfg_attr(not(target_arch = "arm"), inline)]
                 fn reduced_dynamics(
                     &self,
                     state: &State<'_, T>,
@@ -68,15 +70,17 @@ macro_rules! implement_dynamics {
                     let bias = array_mut("generalized_bias", generalized_bias)?;
                     let jacobian = rows_mut("generalized_jacobian", generalized_jacobian)?;
                     let (pose, twist) = (&state.base_pose, &state.base_twist);
+                    $crate::implement_dynamics!(@finite pose twist);
                     let result = Model::reduced_dynamics(self, pose, angles, twist, rates);
-                    let (i, c, j) = (result.generalized_inertia, result.generalized_bias, result.generalized_jacobian);
-                    let is_finite = all_finite([&pose[..], angles, twist, rates])
-                        && all_finite([i.as_flattened(), &c, j.as_flattened()]);
-                    if !(is_finite && is_regular(result.smallest_pivot)) {
-                        // copies: what is borrowed is in memory, and is written there before it is known that there is an error
-                        no_reduced_dynamics(state, result.smallest_pivot, i, c, j)?;
+                    *inertia = result.generalized_inertia;
+                    *bias = result.generalized_bias;
+                    *jacobian = result.generalized_jacobian;
+                    let pivot = result.smallest_pivot;
+                    let numbers = [angles, rates, inertia.as_flattened(), bias, jacobian.as_flattened()];
+                    if !is_regular_and_finite(pivot, numbers) {
+                        let found = objection::to_reduced_dynamics(angles, rates, pivot, inertia, bias, jacobian);
+                        return Err(found.error());
                     }
-                    (*inertia, *bias, *jacobian) = (i, c, j);
                     Ok(())
                 }
             }
@@ -108,10 +112,12 @@ macro_rules! implement_dynamics {
 
             $crate::implement_dynamics!(@accelerations under_torques forward_dynamics());
             $crate::implement_dynamics!(
-                @accelerations under_a_base_wrench forward_dynamics_with_base_wrench(base_wrench: &[T; 3])
+                @accelerations under_a_base_wrench forward_dynamics_with_base_wrench(base_wrench: &[T; 3] => base_wrench)
             );
             $crate::implement_dynamics!(
-                @accelerations under_wrenches forward_dynamics_with_wrenches(base_wrench: &[T; 3], wrenches: &[[T; 3]; ARMS])
+                @accelerations under_wrenches forward_dynamics_with_wrenches(
+                    base_wrench: &[T; 3] => base_wrench, wrenches: &[[T; 3]; ARMS] => wrenches.as_flattened()
+                )
             );
 
             impl<T: Real> MomentumAndEnergy<T> for Model<T> {
@@ -149,6 +155,8 @@ macro_rules! implement_dynamics {
                     store("joint_rates_after", &result.joint_rates_after, joint_rates_after)
                 }
 
+                #[cfg_attr(target_arch = "arm", inline(always))]
+                #[cfg_attr(not(target_arch = "arm"), inline)]
                 fn full_impact(
                     &self,
                     state: &State<'_, T>,
@@ -159,20 +167,20 @@ macro_rules! implement_dynamics {
                     let of_arms = array("targets", targets)?;
                     let joints = array_mut("joint_rates_after", joint_rates_after)?;
                     let (pose, twist) = (&state.base_pose, &state.base_twist);
+                    $crate::implement_dynamics!(@finite pose twist);
+                    // the targets' numbers are read after the sines, which would have to keep them
+                    let configuration = Model::impact_configuration(self, pose, angles);
                     let (masses, inertias, contacts, twists) = by_arm(of_arms);
-                    let result =
-                        Model::full_impact(self, pose, angles, twist, rates, &masses, &inertias, &contacts, &twists);
+                    let result = configuration.full_impact(twist, rates, &masses, &inertias, &contacts, &twists);
                     // copies: a result whose parts are borrowed would be kept in memory as a whole, with its matrix
                     let (base, after) = (result.base_twist_after, result.joint_rates_after);
-                    // the velocities depend on all numbers but the place of the base
-                    if !(is_regular(result.smallest_pivot) && all_finite([&pose[..], &base, &after])) {
-                        finite_state(state)?;
-                        of_arms.iter().flatten().try_for_each(finite_target)?;
-                        pivot("the impact matrix G in full coordinates", result.smallest_pivot)?;
-                        finite("base_twist_after", &{ base })?;
-                        finite("joint_rates_after", &{ after })?;
-                    }
                     *joints = after;
+                    // the velocities depend on all numbers but the place of the base
+                    if !is_regular_and_finite(result.smallest_pivot, [&base, &after]) {
+                        let ([omega, vx, vy], pivot) = (base, result.smallest_pivot);
+                        let found = objection::to_impact(angles, rates, targets, joints, pivot, omega, vx, vy);
+                        return Err(found.error());
+                    }
                     Ok(base)
                 }
             }
@@ -258,23 +266,18 @@ macro_rules! implement_dynamics {
             /// Masses, inertias, contacts and twists, one per arm; those of a massless target for an arm without one.
             #[inline]
             fn by_arm<T: Real>(targets: &[Option<Target<T>>; ARMS]) -> ByArm<T> {
-                let zero = T::ZERO;
-                let (mut masses, mut inertias) = ([zero; ARMS], [zero; ARMS]);
-                let (mut contacts, mut twists) = ([[zero; 2]; ARMS], [[zero; 3]; ARMS]);
-                let places = masses.iter_mut().zip(&mut inertias).zip(contacts.iter_mut().zip(&mut twists));
-                for (target, ((mass, inertia), (contact, twist))) in targets.iter().zip(places) {
-                    if let Some(target) = target {
-                        (*mass, *inertia, *contact, *twist) = (target.mass, target.inertia, target.contact, target.twist);
-                    }
-                }
+                let nothing = &Target::massless();
+                let of_arms = targets.each_ref().map(|target| target.as_ref().unwrap_or(nothing));
+                let (masses, inertias) = (of_arms.map(|target| target.mass), of_arms.map(|target| target.inertia));
+                let (contacts, twists) = (of_arms.map(|target| target.contact), of_arms.map(|target| target.twist));
                 (masses, inertias, contacts, twists)
             }
         }
     };
-    (@accelerations $name:ident $function:ident($($wrench:ident: $type:ty),*)) => {
-        /// The accelerations, unless an input is not finite or the matrix singular. A function of its own where registers are
-        /// few: the frame is that of the forces that there are.
-        #[cfg_attr(target_arch = "arm", inline(never))]
+    (@accelerations $name:ident $function:ident($($wrench:ident: $type:ty => $slice:expr),*)) => {
+        /// The accelerations, unless an input is not finite or the matrix singular. Inlined where registers are few: the
+        /// caller's state and forces are then in no frame, nor is the error that it does not look at.
+        #[cfg_attr(target_arch = "arm", inline(always))]
         #[cfg_attr(not(target_arch = "arm"), inline)]
         #[allow(clippy::too_many_arguments, reason = "those of the inherent function, and the result")]
         fn $name<T: Real>(
@@ -288,15 +291,27 @@ macro_rules! implement_dynamics {
             joints: &mut [T; JOINTS],
         ) -> Result<[T; 3], Error> {
             let (pose, twist) = (&state.base_pose, &state.base_twist);
+            // neither pivot nor accelerations depend on place and velocity of the base, and on all else they do
+            $crate::implement_dynamics!(@finite pose twist);
             let result = Model::$function(model, pose, angles, twist, rates, torques $(, $wrench)*);
             let (base, of_joints) = (result.base_acceleration, result.joint_accelerations);
-            // neither pivot nor accelerations depend on place and velocity of the base, and on all else they do
-            if !(is_regular(result.smallest_pivot) && all_finite([&pose[..], twist, &base, &of_joints])) {
-                // copies: what is borrowed is in memory, and is written there before it is known that there is an error
-                return Err(no_accelerations(state, forces, result.smallest_pivot, &{ base }, &{ of_joints }));
-            }
             *joints = of_joints;
+            // the angular acceleration of the base is a part of the first joint's
+            if !is_regular_and_finite(result.smallest_pivot, [&base[1..], &of_joints]) {
+                let [alpha, ax, ay] = base;
+                let wrenches: &[&[T]] = &[$($slice),*];
+                let pivot = result.smallest_pivot;
+                let found = objection::to_accelerations(angles, rates, torques, joints, wrenches, pivot, alpha, ax, ay);
+                return Err(found.error());
+            }
             Ok(base)
+        }
+    };
+    // before anything is computed: until afterwards, these numbers would take registers
+    (@finite $pose:ident $twist:ident) => {
+        if !all_finite([&$pose[..], $twist]) {
+            let ([yaw, x, y], [omega, vx, vy]) = (*$pose, *$twist);
+            return Err(objection::to_base(yaw, x, y, omega, vx, vy).error());
         }
     };
     ($other:tt) => {

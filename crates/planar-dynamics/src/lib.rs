@@ -28,6 +28,8 @@ pub mod manifest;
 mod momentum_equation;
 #[cfg(feature = "nalgebra")]
 pub mod nalgebra;
+#[doc(hidden)]
+pub mod objection;
 pub mod quantity;
 pub mod scalar;
 #[doc(hidden)]

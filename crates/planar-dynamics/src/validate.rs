@@ -5,6 +5,7 @@ pub use crate::scalar::finite::all_finite;
 use crate::error::Error;
 use crate::linear::copy;
 use crate::scalar::Real;
+use crate::scalar::finite::exceeds_and_finite;
 use crate::state::{Forces, RobotState, State};
 use crate::target::Target;
 
@@ -127,7 +128,7 @@ pub fn finite_joint_arrays<'a, T: Real, const N: usize>(state: &State<'a, T>) ->
 }
 
 /// A pivot at or below this, relative to its scale, is that of a singular matrix.
-fn pivot_limit<T: Real>() -> T {
+pub(crate) fn pivot_limit<T: Real>() -> T {
     T::EPSILON * T::constant(8.0)
 }
 
@@ -135,6 +136,12 @@ fn pivot_limit<T: Real>() -> T {
 #[inline]
 pub fn is_regular<T: Real>(smallest: T) -> bool {
     smallest > pivot_limit()
+}
+
+/// Whether [`is_regular`] and all numbers are finite.
+#[inline]
+pub fn is_regular_and_finite<T: Real, const N: usize>(smallest: T, slices: [&[T]; N]) -> bool {
+    exceeds_and_finite(smallest, pivot_limit(), slices)
 }
 
 /// [`Error::Singular`] unless the smallest relative pivot exceeds 8 ε.
@@ -146,39 +153,4 @@ pub fn pivot<T: Real>(what: &'static str, smallest: T) -> Result<(), Error> {
     } else {
         Err(Error::Singular { what, pivot: smallest.to_f64(), limit: limit.to_f64() })
     }
-}
-
-/// Why forward dynamics has no result: the first input that is not finite, else the pivot, else a result.
-#[cold]
-#[inline(never)]
-pub fn no_accelerations<T: Real>(
-    state: &State<'_, T>,
-    forces: &Forces<'_, T>,
-    smallest_pivot: T,
-    base: &[T; 3],
-    joints: &[T],
-) -> Error {
-    let in_order = finite_state(state)
-        .and_then(|()| finite_forces(forces))
-        .and_then(|()| pivot("the articulated mass of the base", smallest_pivot))
-        .and_then(|()| finite("base_acceleration", base))
-        .and_then(|()| finite("joint_accelerations", joints));
-    in_order.err().unwrap_or(Error::NotFinite { quantity: "base_acceleration", index: 0, value: f64::NAN })
-}
-
-/// Why reduced dynamics have no result, if they have none.
-#[cold]
-#[inline(never)]
-pub fn no_reduced_dynamics<T: Real, const N: usize, const R: usize>(
-    state: &State<'_, T>,
-    smallest_pivot: T,
-    inertia: [[T; N]; N],
-    bias: [T; N],
-    jacobian: [[T; N]; R],
-) -> Result<(), Error> {
-    finite_state(state)?;
-    pivot("the base inertia", smallest_pivot)?;
-    finite("generalized_inertia", inertia.as_flattened())?;
-    finite("generalized_bias", &bias)?;
-    finite("generalized_jacobian", jacobian.as_flattened())
 }

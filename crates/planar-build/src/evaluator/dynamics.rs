@@ -6,11 +6,11 @@ use super::targets::by_arm;
 use planar_dynamics::dynamics::{ForwardDynamics, Impact, Momentum, MomentumAndEnergy, ReducedDynamics, Robot};
 use planar_dynamics::error::Error;
 use planar_dynamics::manifest::ParameterKind;
+use planar_dynamics::objection::to_accelerations_of;
 use planar_dynamics::state::{Forces, State};
 use planar_dynamics::target::Target;
 use planar_dynamics::validate::{
-    all_finite, finite, finite_configuration, finite_state, finite_target, is_regular, length, no_accelerations, pivot,
-    store,
+    finite, finite_configuration, finite_state, finite_target, is_regular_and_finite, length, pivot, store,
 };
 use planar_dynamics::{element, with_quantities};
 
@@ -138,6 +138,8 @@ impl ForwardDynamics<f64> for GraphModel {
         length("joint_torques", self.joints(), forces.joint_torques.len())?;
         length("joint_accelerations", self.joints(), joint_accelerations.len())?;
         let [pose, angles, twist, rates] = of_state(state);
+        finite("base_pose", pose)?;
+        finite("base_twist", twist)?;
         let wrench = forces.base_wrench.unwrap_or([0.0; 3]);
         let wrenches = forces.end_effector_wrenches.unwrap_or_default();
         let inputs = [pose, angles, twist, rates, forces.joint_torques, &wrench, wrenches.as_flattened()];
@@ -154,10 +156,14 @@ impl ForwardDynamics<f64> for GraphModel {
                 *place = value;
             }
             let (base, smallest) = (triple(results, 0), results.scalar(2));
-            if is_regular(smallest) && all_finite([pose, twist, &base, joint_accelerations]) {
+            if is_regular_and_finite(smallest, [&base, joint_accelerations]) {
                 Ok(base)
             } else {
-                Err(no_accelerations(state, forces, smallest, &base, joint_accelerations))
+                let inputs = [angles, rates, forces.joint_torques];
+                let wrenches = [&wrench[..], wrenches.as_flattened()];
+                let objection = to_accelerations_of(inputs, &wrenches, smallest, &base, joint_accelerations);
+                joint_accelerations.fill(0.0);
+                Err(objection.error())
             }
         })
     }

@@ -43,6 +43,7 @@ use crate::linear::{copy, dot};
 use crate::scalar::Real;
 use crate::state::{Forces, State, StateVector, coordinates_mut, split, split_mut};
 use crate::validate::length;
+use core::hint::black_box;
 
 /// d/dt of an integrated vector, see [`vector_length`](crate::state::vector_length), under the joint and base torques of a
 /// control law; no other forces. Free bodies keep their twists.
@@ -61,6 +62,8 @@ pub fn derivative<T: Real, M: Model<T> + ?Sized>(
     rate: &mut [T],
     torques: &mut [T],
 ) -> Result<(), Error> {
+    // where registers are few: what a loop over stages reads of the model once, before it, would be on the stack
+    let model = if cfg!(target_arch = "arm") { black_box(model) } else { model };
     let joints = model.joints();
     length("state vector", x.len(), rate.len())?;
     let state = State::from_vector(x, joints)?;

@@ -53,10 +53,15 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
             [(T::ZERO, T::ONE, half), (half, two, half), (half, two, step), (step, T::ONE, T::ZERO)]
         {
             derivative(time + at, stage, slope)?;
-            add_scaled(sum, weight, slope);
-            for ((stage, x), slope) in stage.iter_mut().zip(x.iter()).zip(slope.iter()) {
+            let places = sum.iter_mut().zip(stage.iter_mut());
+            for ((sum, stage), (x, slope)) in places.zip(x.iter().zip(slope.iter())) {
+                *sum += weight * *slope;
                 *stage = *x + next * *slope;
             }
+        }
+        // where registers are few: numbers of the last stage, kept for this, would be on the stack
+        if cfg!(target_arch = "arm") {
+            core::hint::black_box(&mut *x);
         }
         add_scaled(x, step / T::constant(6.0), sum);
         Ok(())

@@ -10,12 +10,12 @@ macro_rules! portable {
         #[cfg_attr(not(target_arch = "arm"), inline)]
         pub(super) fn $sin_cos_all<const N: usize>(angles: [$float; N]) -> [($float, $float); N] {
             let mut results = [(0.0, 0.0); N];
-            for (angles, results) in angles.chunks(2).zip(results.chunks_mut(2)) {
-                match (angles, results) {
-                    (&[first, second], [a, b]) => [*a, *b] = $sin_cos_pair(first, second).into_tuples(),
-                    (&[angle], [pair]) => *pair = $sin_cos(angle),
-                    _ => {}
-                }
+            let ((pairs, last), (places, place)) = (angles.as_chunks(), results.as_chunks_mut());
+            for ([first, second], place) in pairs.iter().zip(places) {
+                *place = $sin_cos_pair(*first, *second).into_tuples();
+            }
+            for (angle, place) in last.iter().zip(place) {
+                *place = $sin_cos(*angle);
             }
             results
         }

@@ -66,7 +66,12 @@ fn turned_f64(x: f64, quadrant: u64) -> (f64, f64) {
     let half = 0.5 * z;
     let head = 1.0 - half;
     let cosine = head + (((1.0 - head) - half) + z * z * cosine);
-    // exchanged in odd quadrants
+    // exchanged in odd quadrants; where words have 32 bits, one instruction selects what takes several by halves
+    if cfg!(target_arch = "arm") {
+        let (sine, cosine) = if quadrant & 1 == 0 { (sine, cosine) } else { (cosine, -sine) };
+        let (sine, cosine) = if quadrant & 2 == 0 { (sine, cosine) } else { (-sine, -cosine) };
+        return (sine, cosine);
+    }
     let (sine, cosine) = (sine.to_bits(), cosine.to_bits());
     let exchange = (sine ^ cosine) & (quadrant & 1).wrapping_neg();
     let sign = |quadrant: u64| (quadrant & 2) << 62;
@@ -84,6 +89,10 @@ fn turned_f32(x: f32, quadrant: u32) -> (f32, f32) {
     let [c0, c1, c2] = K.cosine;
     let sine = x + x * z * (s0 + z * (s1 + z * s2));
     let cosine = 1.0 - 0.5 * z + z * z * (c0 + z * (c1 + z * c2));
+    if cfg!(target_arch = "arm") {
+        let (sine, cosine) = if quadrant & 1 == 0 { (sine, cosine) } else { (cosine, -sine) };
+        return if quadrant & 2 == 0 { (sine, cosine) } else { (-sine, -cosine) };
+    }
     // exchanged in odd quadrants
     let (sine, cosine) = (sine.to_bits(), cosine.to_bits());
     let exchange = (sine ^ cosine) & (quadrant & 1).wrapping_neg();
@@ -95,8 +104,13 @@ fn turned_f32(x: f32, quadrant: u32) -> (f32, f32) {
 
 macro_rules! sines {
     ($float:ident, $bits:ident, $coefficients:expr, $turned:ident, $reduce_near:ident, $near:ident, $reduce_far:ident,
-     $any:ident, $sin_cos:ident, $near_pair:ident, $any_pair:ident, $sin_cos_pair:ident, $pair:ident,
+     $any:ident, $one:ident, $sin_cos:ident, $near_pair:ident, $sin_cos_pair:ident, $single:ident, $pair:ident,
      $error:literal) => {
+        /// Sine and cosine. By the convention of C, up to four numbers come back in registers; by that of Rust, words do.
+        #[derive(Clone, Copy, Debug)]
+        #[repr(C)]
+        struct $single([$float; 2]);
+
         /// Sines and cosines of two angles.
         #[derive(Clone, Copy, Debug)]
         #[repr(C)]
@@ -133,40 +147,39 @@ macro_rules! sines {
         /// Of an angle that may be far. It calls nothing: its frame is on top of that of a function that may be large.
         #[cold]
         #[inline(never)]
-        fn $any(angle: $float) -> ($float, $float) {
+        extern "C" fn $any(angle: $float) -> $single {
             let (x, quadrant) =
                 if angle.abs() <= $coefficients.furthest { $reduce_near(angle) } else { $reduce_far(angle) };
-            $turned(x, quadrant)
+            $single($turned(x, quadrant).into())
+        }
+
+        #[cfg_attr(target_arch = "arm", inline(never))]
+        #[cfg_attr(not(target_arch = "arm"), inline)]
+        extern "C" fn $one(angle: $float) -> $single {
+            if angle.abs() <= $coefficients.furthest { $single($near(angle).into()) } else { $any(angle) }
         }
 
         #[doc = concat!("(sine, cosine) of an angle in rad with an error below ", $error, ". NaN for an angle that is not finite.")]
-        #[cfg_attr(target_arch = "arm", inline(never))]
-        #[cfg_attr(not(target_arch = "arm"), inline)]
+        #[inline]
         #[must_use]
         pub fn $sin_cos(angle: $float) -> ($float, $float) {
-            if angle.abs() <= $coefficients.furthest { $near(angle) } else { $any(angle) }
+            $one(angle).0.into()
         }
 
         /// Of two angles: a call less, and one set of constants, where they are not inlined.
         #[inline]
         #[must_use]
         pub fn $sin_cos_pair(first: $float, second: $float) -> $pair {
-            // here, so that far angles do not need the frame of near ones
+            // here, so that far angles need neither the frame of near ones nor one of their own
             let is_near = first.abs() + second.abs() <= $coefficients.furthest;
-            if is_near { $near_pair(first, second) } else { $any_pair(first, second) }
+            if is_near { $near_pair(first, second) } else { $pair { first: $any(first).0, second: $any(second).0 } }
         }
 
-        /// Of angles that are not far. Four numbers come back in registers by the convention of C, not by that of Rust.
+        /// Of angles that are not far.
         #[cfg_attr(target_arch = "arm", inline(never))]
         #[cfg_attr(not(target_arch = "arm"), inline)]
         extern "C" fn $near_pair(first: $float, second: $float) -> $pair {
             $pair { first: $near(first).into(), second: $near(second).into() }
-        }
-
-        #[cold]
-        #[inline(never)]
-        extern "C" fn $any_pair(first: $float, second: $float) -> $pair {
-            $pair { first: $any(first).into(), second: $any(second).into() }
         }
     };
 }
@@ -180,10 +193,11 @@ sines!(
     near_f64,
     reduce_f64,
     any_f64,
+    one_f64,
     sin_cos_f64,
     near_pair_f64,
-    any_pair_f64,
     sin_cos_pair_f64,
+    SingleF64,
     PairF64,
     "3·10⁻¹⁶"
 );
@@ -196,10 +210,11 @@ sines!(
     near_f32,
     reduce_f32,
     any_f32,
+    one_f32,
     sin_cos_f32,
     near_pair_f32,
-    any_pair_f32,
     sin_cos_pair_f32,
+    SingleF32,
     PairF32,
     "1.5·10⁻⁷"
 );

@@ -2,20 +2,23 @@
 //! estimates.
 #![allow(clippy::float_cmp, reason = "numbers that are exact")]
 
+use crate::evaluator;
 use planar_capture::batch::{Batch, FullImpact, States, StatesAfter, Status, Targets};
 use planar_capture::contact::{
     Contact, ContactLaw, ContactPartner, DelassusMatrix, ImpactOutput, balance_length, balance_momentum, impact,
     workspace_length,
 };
 use planar_capture::control::{Control, EstimatedState, Estimator, ProportionalDerivative, TorqueLimiter, ZeroTorque};
-use planar_capture::dynamics::{AnyModel, ForwardDynamics, Impact};
+use planar_capture::dynamics::{AnyModel, ForwardDynamics, Impact, ReducedDynamics};
 use planar_capture::error::Error;
 use planar_capture::formulation::CanonicalVariables;
-use planar_capture::generated::dual_arm_3r::{ARMS, JOINTS, Model};
+use planar_capture::generated::dual_arm_3r::{ARMS, JOINTS, Model, PARAMETERS, Parameters};
 use planar_capture::impact::{PaperImpactWorkspace, RigidImpactOutput, exact, paper};
+use planar_capture::layout::Layout;
 use planar_capture::state::{Forces, State};
 use planar_capture::target::Target;
 use planar_capture::trajectory::ConstantSetpoint;
+use planar_proof::file;
 
 const STATE: State<'_, f64> = State {
     base_pose: [0.3, 0.1, -0.2],
@@ -167,6 +170,83 @@ fn forces_and_targets_that_are_no_numbers_are_named() {
     {
         let mut after = [0.0; JOINTS];
         assert_eq!(name(Impact::full_impact(&model, &STATE, &[None, Some(target)], &mut after)), expected);
+    }
+}
+
+/// Every number of a state, one after the other: its name and index, and buffers without NaN, by compiled code and by the
+/// graph that it is of.
+#[test]
+fn every_number_of_a_state_is_named_and_none_travels() {
+    let layout = Layout::read(&file("codegen/layouts/dual_arm_3r.toml")).expect("a layout");
+    let graph = evaluator("graphs", "dual_arm_3r").model(&layout).expect("its structure");
+    let compiled = Model::<f64>::default();
+    let models: [&AnyModel<f64>; 2] = [&compiled, &graph];
+    let target = Target { mass: 10.0, inertia: 1.0, contact: [0.0, 0.5], twist: [0.1, 0.0, 0.2] };
+    let numbers = [("base_pose", 3), ("joint_angles", JOINTS), ("base_twist", 3), ("joint_rates", JOINTS)];
+    for (name, index) in numbers.into_iter().flat_map(|(name, count)| (0..count).map(move |index| (name, index))) {
+        for number in [f64::NAN, f64::NEG_INFINITY] {
+            let (mut angles, mut rates) = (STATE.joint_angles.to_vec(), STATE.joint_rates.to_vec());
+            let (mut base_pose, mut base_twist) = (STATE.base_pose, STATE.base_twist);
+            match name {
+                "base_pose" => base_pose[index] = number,
+                "joint_angles" => angles[index] = number,
+                "base_twist" => base_twist[index] = number,
+                _ => rates[index] = number,
+            }
+            let state = State { base_pose, joint_angles: &angles, base_twist, joint_rates: &rates };
+            for model in models {
+                let mut results = vec![7.0; 2 * JOINTS + 2 * JOINTS * JOINTS + JOINTS];
+                let (joints, rest) = results.split_at_mut(JOINTS);
+                let (after, rest) = rest.split_at_mut(JOINTS);
+                let (inertia, rest) = rest.split_at_mut(JOINTS * JOINTS);
+                let (jacobian, bias) = rest.split_at_mut(3 * ARMS * JOINTS);
+                let found = [
+                    model.forward_dynamics(&state, &Forces::torques(&[0.5; JOINTS]), joints).map(drop),
+                    model.full_impact(&state, &[Some(target), None], after).map(drop),
+                    model.reduced_dynamics(&state, inertia, bias, jacobian),
+                ];
+                for found in found {
+                    let Err(Error::NotFinite { quantity, index: at, value }) = found else { panic!("{found:?}") };
+                    assert_eq!((quantity, at, value.to_bits()), (name, index, number.to_bits()));
+                }
+                assert!(results.iter().all(|result| result.is_finite()), "{name}[{index}] = {number}: {results:?}");
+            }
+        }
+    }
+}
+
+/// Results that overflow, of numbers that do not, and a robot without masses: errors, and zeros.
+#[test]
+fn what_has_no_result_is_zero() {
+    let rates = [1e200; JOINTS];
+    let fast = State { joint_rates: &rates, ..STATE };
+    let (mut joints, mut after) = ([7.0; JOINTS], [7.0; JOINTS]);
+    let (mut inertia, mut bias, mut jacobian) = ([7.0; JOINTS * JOINTS], [7.0; JOINTS], [7.0; 3 * ARMS * JOINTS]);
+    let nothing = Model::new(Parameters::<f64>::from_array([0.0; PARAMETERS]));
+    for (model, state, is_singular) in [(Model::default(), fast, false), (nothing, STATE, true)] {
+        let torques = Forces::torques(&[0.5; JOINTS]);
+        let found = [
+            ForwardDynamics::forward_dynamics(&model, &state, &torques, &mut joints).map(drop),
+            ReducedDynamics::reduced_dynamics(&model, &state, &mut inertia, &mut bias, &mut jacobian),
+            if is_singular { Impact::full_impact(&model, &state, &[None; ARMS], &mut after).map(drop) } else { Ok(()) },
+        ];
+        let [accelerations, reduced, impact] = found;
+        if is_singular {
+            let names =
+                ["the articulated mass of the base", "the base inertia", "the impact matrix G in full coordinates"];
+            for (found, name) in [accelerations, reduced, impact].into_iter().zip(names) {
+                assert!(matches!(found, Err(Error::Singular { what, .. }) if what == name), "{found:?}");
+            }
+            assert_eq!(after, [0.0; JOINTS]);
+        } else {
+            assert!(
+                matches!(accelerations, Err(Error::NotFinite { quantity: "base_acceleration", .. })),
+                "{accelerations:?}"
+            );
+            assert!(matches!(reduced, Err(Error::NotFinite { quantity: "generalized_bias", .. })), "{reduced:?}");
+        }
+        assert_eq!((joints, bias, inertia, jacobian), ([0.0; JOINTS], [0.0; JOINTS], [0.0; 36], [0.0; 36]));
+        (joints, inertia, bias, jacobian) = ([7.0; JOINTS], [7.0; 36], [7.0; JOINTS], [7.0; 36]);
     }
 }
 

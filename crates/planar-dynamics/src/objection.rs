@@ -1,0 +1,201 @@
+//! Why a function has no result, as two numbers in registers: an [`Error`] is built of them where it is used. For generated
+//! code alone.
+//!
+//! A controller's frame is what counts where memory is scarce: neither an error nor what it would be found in is in it
+//! until there is one. Functions that find one are out of line and small, and set the results to zero.
+
+use crate::error::Error;
+use crate::scalar::Real;
+use crate::target::Target;
+use crate::validate::{is_regular, pivot_limit};
+use core::hint::black_box;
+
+macro_rules! names {
+    ($($name:ident $text:literal)*) => {
+        /// What may be out of order: numbers, then matrices.
+        #[derive(Clone, Copy, Debug)]
+        #[repr(u8)]
+        enum Name { $($name),* }
+
+        const TEXTS: &[&str] = &[$($text),*];
+    };
+}
+
+names! {
+    Result "the result"
+    BasePose "base_pose"
+    JointAngles "joint_angles"
+    BaseTwist "base_twist"
+    JointRates "joint_rates"
+    JointTorques "joint_torques"
+    BaseWrench "base_wrench"
+    EndEffectorWrenches "end_effector_wrenches"
+    TargetMassAndInertia "target mass and inertia"
+    TargetContact "target contact"
+    TargetTwist "target twist"
+    BaseAcceleration "base_acceleration"
+    JointAccelerations "joint_accelerations"
+    GeneralizedInertia "generalized_inertia"
+    GeneralizedBias "generalized_bias"
+    GeneralizedJacobian "generalized_jacobian"
+    BaseTwistAfter "base_twist_after"
+    JointRatesAfter "joint_rates_after"
+    ArticulatedMass "the articulated mass of the base"
+    BaseInertia "the base inertia"
+    ImpactMatrix "the impact matrix G in full coordinates"
+}
+
+/// The first of a function's numbers that is out of order: its name and place in one word, and the number.
+#[derive(Clone, Copy, Debug)]
+pub struct Objection<T>(u32, T);
+
+impl<T: Real> Objection<T> {
+    const NONE: Self = Self(Name::Result as u32, T::ZERO);
+
+    fn new(name: Name, index: usize, value: T) -> Self {
+        let index = u32::try_from(index).unwrap_or(u32::MAX);
+        Self(index << 8 | name as u32, value)
+    }
+
+    /// This, else what another check finds.
+    fn or(self, other: impl FnOnce() -> Self) -> Self {
+        if self.0 == Self::NONE.0 { other() } else { self }
+    }
+
+    /// As an error.
+    #[inline(always)]
+    #[must_use]
+    pub fn error(self) -> Error {
+        let Self(word, value) = self;
+        let (name, index, value) = (word & 0xff, (word >> 8) as usize, value.to_f64());
+        let text = TEXTS.get(name as usize).copied().unwrap_or_default();
+        if name >= Name::ArticulatedMass as u32 {
+            Error::Singular { what: text, pivot: value, limit: pivot_limit::<T>().to_f64() }
+        } else {
+            Error::NotFinite { quantity: text, index, value }
+        }
+    }
+}
+
+/// The first number that is NaN or infinite.
+#[cold]
+#[inline(never)]
+fn not_finite<T: Real>(name: Name, values: &[T]) -> Objection<T> {
+    for (index, value) in values.iter().enumerate() {
+        // opaque to the compiler, which would write it out number by number
+        if !black_box(*value).is_finite() {
+            return Objection::new(name, index, *value);
+        }
+    }
+    Objection::NONE
+}
+
+/// A pivot that is not regular.
+fn singular<T: Real>(name: Name, smallest: T) -> Objection<T> {
+    if is_regular(smallest) { Objection::NONE } else { Objection::new(name, 0, smallest) }
+}
+
+/// To the base's pose or twist. Numbers one by one are in registers; what is borrowed would be in memory, though there is
+/// nothing wrong with it.
+#[cold]
+#[inline(never)]
+pub fn to_base<T: Real>(yaw: T, x: T, y: T, omega: T, vx: T, vy: T) -> Objection<T> {
+    not_finite(Name::BasePose, &[yaw, x, y]).or(|| not_finite(Name::BaseTwist, &[omega, vx, vy]))
+}
+
+/// To forward dynamics of a base whose numbers are finite: to an input, else to the pivot, else to a result.
+///
+/// Numbers of the base one by one, as those of [`to_base`].
+#[cold]
+#[inline(never)]
+#[allow(clippy::too_many_arguments, reason = "see above")]
+pub fn to_accelerations<T: Real, const N: usize>(
+    joint_angles: &[T; N],
+    joint_rates: &[T; N],
+    joint_torques: &[T; N],
+    joint_accelerations: &mut [T; N],
+    wrenches: &[&[T]],
+    smallest_pivot: T,
+    alpha: T,
+    ax: T,
+    ay: T,
+) -> Objection<T> {
+    let inputs = [&joint_angles[..], joint_rates, joint_torques];
+    let objection = to_accelerations_of(inputs, wrenches, smallest_pivot, &[alpha, ax, ay], joint_accelerations);
+    *joint_accelerations = [T::ZERO; N];
+    objection
+}
+
+/// As [`to_accelerations`], of slices that stay as they are.
+#[inline]
+pub fn to_accelerations_of<T: Real>(
+    [joint_angles, joint_rates, joint_torques]: [&[T]; 3],
+    wrenches: &[&[T]],
+    smallest_pivot: T,
+    base_acceleration: &[T; 3],
+    joint_accelerations: &[T],
+) -> Objection<T> {
+    let wrench = |index: usize| wrenches.get(index).copied().unwrap_or_default();
+    not_finite(Name::JointAngles, joint_angles)
+        .or(|| not_finite(Name::JointRates, joint_rates))
+        .or(|| not_finite(Name::JointTorques, joint_torques))
+        .or(|| not_finite(Name::BaseWrench, wrench(0)))
+        .or(|| not_finite(Name::EndEffectorWrenches, wrench(1)))
+        .or(|| singular(Name::ArticulatedMass, smallest_pivot))
+        .or(|| not_finite(Name::BaseAcceleration, base_acceleration))
+        .or(|| not_finite(Name::JointAccelerations, joint_accelerations))
+}
+
+/// To reduced dynamics, as [`to_accelerations`].
+#[cold]
+#[inline(never)]
+pub fn to_reduced_dynamics<T: Real, const N: usize, const R: usize>(
+    joint_angles: &[T; N],
+    joint_rates: &[T; N],
+    smallest_pivot: T,
+    generalized_inertia: &mut [[T; N]; N],
+    generalized_bias: &mut [T; N],
+    generalized_jacobian: &mut [[T; N]; R],
+) -> Objection<T> {
+    let objection = not_finite(Name::JointAngles, joint_angles)
+        .or(|| not_finite(Name::JointRates, joint_rates))
+        .or(|| singular(Name::BaseInertia, smallest_pivot))
+        .or(|| not_finite(Name::GeneralizedInertia, generalized_inertia.as_flattened()))
+        .or(|| not_finite(Name::GeneralizedBias, generalized_bias))
+        .or(|| not_finite(Name::GeneralizedJacobian, generalized_jacobian.as_flattened()));
+    *generalized_inertia = [[T::ZERO; N]; N];
+    *generalized_bias = [T::ZERO; N];
+    *generalized_jacobian = [[T::ZERO; N]; R];
+    objection
+}
+
+/// To an impact, as [`to_accelerations`].
+#[cold]
+#[inline(never)]
+#[allow(clippy::too_many_arguments, reason = "see `to_accelerations`")]
+pub fn to_impact<T: Real, const N: usize>(
+    joint_angles: &[T; N],
+    joint_rates: &[T; N],
+    targets: &[Option<Target<T>>],
+    joint_rates_after: &mut [T; N],
+    smallest_pivot: T,
+    omega: T,
+    vx: T,
+    vy: T,
+) -> Objection<T> {
+    let objection = not_finite(Name::JointAngles, joint_angles)
+        .or(|| not_finite(Name::JointRates, joint_rates))
+        .or(|| {
+            targets.iter().flatten().fold(Objection::NONE, |found, target| {
+                found
+                    .or(|| not_finite(Name::TargetMassAndInertia, &[target.mass, target.inertia]))
+                    .or(|| not_finite(Name::TargetContact, &target.contact))
+                    .or(|| not_finite(Name::TargetTwist, &target.twist))
+            })
+        })
+        .or(|| singular(Name::ImpactMatrix, smallest_pivot))
+        .or(|| not_finite(Name::BaseTwistAfter, &[omega, vx, vy]))
+        .or(|| not_finite(Name::JointRatesAfter, joint_rates_after));
+    *joint_rates_after = [T::ZERO; N];
+    objection
+}
