@@ -55,7 +55,7 @@ def colours(page):
     page.emulate_media(color_scheme="light")
     # an arm has one colour in the scene and in the plots
     curves = page.evaluate("plots[0].series.slice(1).map((curve) => [curve.label, curve.stroke()])")
-    for i, name in enumerate(page.evaluate("study.layout.arms.map(({ name }) => name)")):
+    for i, name in enumerate(page.evaluate("arms.map(({ name }) => name)")):
         own = {colour for label, colour in curves if label.startswith(f"{name} ")}
         assert own == {page.evaluate(f"armColour({i})")}, (name, own)
 

@@ -140,8 +140,8 @@ class Result:
     def report(self, path: str | os.PathLike[str], *, case: str | None = None) -> None:
         """Writes the report, one HTML file that opens without a network.
 
-        A case with values of its own, ``set``, has a report of its own: that is the one of ``case``. By default it is
-        that of all other cases, or of the only one.
+        It is on all cases, or on ``case`` and those that share its approach: a case with values of its own, ``set``,
+        shares its with none.
         """
         self._native.write_html(path, case)
 
@@ -152,10 +152,8 @@ class Result:
         return self._native.table()
 
     def _repr_html_(self) -> str:
-        # one for the cases that share an approach, and one for each other
-        pages = (html.escape(self._native.html(case), quote=True) for case in self._native.reports)
-        style = f"width: 100%; height: {HEIGHT}px; border: 0"
-        return "\n".join(f'<iframe srcdoc="{page}" style="{style}"></iframe>' for page in pages)
+        page = html.escape(self._native.html(), quote=True)
+        return f'<iframe srcdoc="{page}" style="width: 100%; height: {HEIGHT}px; border: 0"></iframe>'
 
     def _only(self) -> Case:
         if len(self.cases) != 1:

@@ -46,19 +46,14 @@ impl Study {
         cases.find(|(_, case)| case.name == name).ok_or_else(missing)
     }
 
-    /// The part that a case is in; without its name that of the cases that share an approach, or the only one.
-    fn part(&self, case: Option<&str>) -> PyResult<&Part> {
+    /// The part that a case is in alone, or all of them.
+    fn parts_with(&self, case: Option<&str>) -> PyResult<Vec<StudyPart<'_>>> {
+        let mut parts = self.study_parts();
         if let Some(name) = case {
-            return self.case(name).map(|(part, _)| part);
+            self.case(name)?;
+            parts.retain(|part| part.study.cases.iter().any(|case| case.name == name));
         }
-        match &self.parts[..] {
-            [part] => Ok(part),
-            [part, ..] if self.variant(part).is_none() => Ok(part),
-            _ => Err(Failure::Input.with(format!(
-                "each case has values of its own, and a report of its own: choose one, report(path, case=NAME), of {}",
-                self.scenario.case_names().join(", ")
-            ))),
-        }
+        Ok(parts)
     }
 
     fn study_parts(&self) -> Vec<StudyPart<'_>> {
@@ -87,12 +82,6 @@ impl Study {
     #[getter]
     fn cases(&self) -> Vec<&str> {
         self.scenario.case_names()
-    }
-
-    /// A case of each report.
-    #[getter]
-    fn reports(&self) -> Vec<&str> {
-        self.parts.iter().filter_map(|part| Some(part.computed.cases.first()?.name.as_str())).collect()
     }
 
     /// Why a graph that is there was not used.
@@ -135,18 +124,17 @@ impl Study {
         Ok((phases, all.map(|(name, unit, values)| (name, unit, values.into_pyarray(py))).collect()))
     }
 
-    /// The report that a case is in as HTML.
-    fn html(&self, case: Option<&str>) -> PyResult<String> {
-        let (part, mut page) = (self.part(case)?, Vec::new());
-        write_report(&part.scenario, &part.computed, &self.manifest_of(part), &mut page)?;
+    /// The report on all cases as HTML.
+    fn html(&self) -> PyResult<String> {
+        let mut page = Vec::new();
+        write_report(&self.scenario, &self.study_parts(), &self.manifest, &mut page)?;
         Ok(String::from_utf8_lossy(&page).into_owned())
     }
 
-    /// Writes the report that a case is in to a file, whole or not at all.
+    /// Writes the report on all cases, or on one and those that share its approach, to a file, whole or not at all.
     fn write_html(&self, path: PathBuf, case: Option<&str>) -> PyResult<()> {
-        let part = self.part(case)?;
-        let manifest = self.manifest_of(part);
-        let staged = StagedFile::new(&path, |to| write_report(&part.scenario, &part.computed, &manifest, to));
+        let parts = self.parts_with(case)?;
+        let staged = StagedFile::new(&path, |to| write_report(&self.scenario, &parts, &self.manifest, to));
         staged.and_then(StagedFile::commit).map_err(of_output)
     }
 

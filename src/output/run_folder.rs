@@ -28,6 +28,8 @@ use std::{fs, io};
 
 /// The file that names the scenario, its cases, and the files of the run.
 pub const SUMMARY: &str = "summary.json";
+/// The page with all cases.
+pub const REPORT: &str = "report.html";
 /// The folder in a folder of results; these have no other, and no name that begins with a point.
 pub const FIGURES: &str = "figures";
 

@@ -39,8 +39,6 @@ pub struct RunManifest {
     pub phases: Vec<PhaseManifest>,
     /// Control laws of the program's own.
     pub laws: Vec<LawManifest>,
-    /// The case with values of its own that this is the manifest of.
-    pub case: Option<String>,
 }
 
 /// A control law of the program's own.
@@ -99,7 +97,6 @@ impl RunManifest {
             layout_sha256: scenario.layout.sha256(),
             phases: phases(scenario),
             laws: laws(scenario),
-            case: None,
         }
     }
 
@@ -108,7 +105,6 @@ impl RunManifest {
     pub fn of_variant(&self, variant: &Variant) -> Self {
         let Variant { scenario, texts: [_, layout], .. } = variant;
         Self {
-            case: Some(variant.name().to_owned()),
             layout_toml: layout.clone(),
             layout_sha256: scenario.layout.sha256(),
             phases: phases(scenario),

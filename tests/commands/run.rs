@@ -449,9 +449,10 @@ fn a_report_is_one_file_without_a_network() {
     let (data, _) = rest.split_once("</script>").expect("an end");
     let data: serde_json::Value = serde_json::from_str(data).expect("JSON");
     assert_eq!(data["cases"].as_array().map(Vec::len), Some(3));
-    assert_eq!(data["targets"][0]["name"], "</script><b>");
-    assert_eq!(data["approach"]["time"].as_array().map(Vec::len), Some(401));
-    assert_eq!(data["approach"]["joint_angles"].as_array().map(Vec::len), Some(6));
+    let part = &data["parts"][0];
+    assert_eq!(part["targets"][0]["name"], "</script><b>");
+    assert_eq!(part["approach"]["time"].as_array().map(Vec::len), Some(401));
+    assert_eq!(part["approach"]["joint_angles"].as_array().map(Vec::len), Some(6));
     let momentum = &data["cases"][0]["targets_alone"]["momentum"];
     assert!(momentum[0].as_f64().is_some_and(|l| (l - 0.4).abs() < 1e-12), "{momentum}");
 }

@@ -1,9 +1,8 @@
 //! Phases with more samples than are kept in memory: the time series have all of them, figures and report a part.
 
-use crate::{Silent, scenario};
+use crate::{Silent, data_of, report, scenario};
 use planar_capture::capture::{CaseResult, Study, study};
 use planar_capture::output::console::table;
-use planar_capture::output::html_report::write_report;
 use planar_capture::output::time_series::write_csv;
 use planar_capture::registry;
 use planar_capture::scenario::Scenario;
@@ -58,13 +57,9 @@ fn every_sample_of_a_long_phase_is_in_its_time_series() {
     let said = table(&scenario, &fine);
     assert!(said.contains("approach: figures and report show 6001 of 12001 samples"), "{said}");
     assert!(!table(&scenario, &coarse).contains("figures and report show"), "they show all");
-    let mut page = Vec::new();
-    write_report(&scenario, &fine, &crate::manifest(&scenario), &mut page).expect("written");
-    let page = String::from_utf8(page).expect("UTF-8");
-    let (_, data) = page.split_once("id=\"data\">").expect("data");
-    let data: serde_json::Value = serde_json::from_str(data.split_once("</script>").expect("an end").0).expect("JSON");
-    assert_eq!(data["approach"]["samples"], 12_001, "the page says how many of them it shows");
-    assert_eq!(data["approach"]["time"].as_array().map(Vec::len), Some(6001));
+    let approach = &data_of(&report(&scenario, &fine))["parts"][0]["approach"];
+    assert_eq!(approach["samples"], 12_001, "the page says how many of them it shows");
+    assert_eq!(approach["time"].as_array().map(Vec::len), Some(6001));
 }
 
 /// Away from the inertial origin, which a study is not computed about, stored samples have the same positions.

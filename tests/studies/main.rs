@@ -28,10 +28,13 @@ mod step_advice;
 mod study;
 
 use planar_capture::capture::{Silent, Study};
+use planar_capture::output::html_report::write_report;
 use planar_capture::output::run_manifest::RunManifest;
+use planar_capture::output::study_part::StudyPart;
 use planar_capture::registry;
 use planar_capture::scenario::{Scenario, ScenarioSource, Source};
 use planar_proof::file;
+use std::borrow::Cow;
 use std::process::Command;
 
 /// A shipped scenario.
@@ -53,6 +56,20 @@ fn manifest(scenario: &Scenario) -> RunManifest {
     let source = |text| Source { text, file: "a file".to_owned() };
     let source = ScenarioSource { scenario: source(scenario_text), layout: source(layout_text) };
     RunManifest::new(scenario, source, "planar-capture run".to_owned())
+}
+
+/// The report on a study.
+fn report(scenario: &Scenario, study: &Study) -> String {
+    let (study, mut page) = (Cow::Borrowed(study), Vec::new());
+    let part = StudyPart { scenario, variant: None, dynamics: "generated", study, manifest: manifest(scenario) };
+    write_report(scenario, &[part], &manifest(scenario), &mut page).expect("written");
+    String::from_utf8(page).expect("UTF-8")
+}
+
+/// What the programs of a report read.
+fn data_of(page: &str) -> serde_json::Value {
+    let (_, rest) = page.split_once("id=\"data\">").expect("data");
+    serde_json::from_str(rest.split_once("</script>").expect("an end").0).expect("JSON")
 }
 
 /// The summary of a study.

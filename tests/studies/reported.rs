@@ -1,11 +1,10 @@
 //! Numbers of the summary, the table and the report against what they are made of.
 
-use crate::{Silent, command, manifest, run, scenario, summary};
+use crate::{Silent, command, data_of, report, run, scenario, summary};
 use planar_capture::capture::clearance::LeastDistance;
 use planar_capture::capture::residual_motion::ResidualMotion;
 use planar_capture::capture::{CaseResult, Study, study};
 use planar_capture::output::console::table;
-use planar_capture::output::html_report::write_report;
 use planar_capture::owned::RobotState;
 use planar_capture::registry;
 use planar_capture::scenario::{PostCaptureControl, Scenario};
@@ -300,7 +299,7 @@ fn the_reports_frames_end_at_the_end_effectors() {
     let scenario = scenario("three_arms");
     assert!(scenario.layout.arms.iter().any(|arm| arm.mount_angle.abs() > 0.1));
     let data = report_data(&scenario, &run(&scenario));
-    let (layout, phase) = (&data["layout"], &data["approach"]);
+    let (layout, phase) = (&data["parts"][0]["layout"], &data["parts"][0]["approach"]);
     let (frames, times) = (layout["frames"].as_array().expect("frames"), phase["time"].as_array().expect("times"));
     for i in (0..times.len()).step_by(50) {
         let now = |column: &Value| number(&column[i]);
@@ -420,7 +419,7 @@ fn the_summary_tells_overlaps_and_planned_contacts_apart() {
 fn the_reports_columns_are_those_of_the_samples() {
     let (scenario, study) = stabilised();
     let data = report_data(&scenario, &study);
-    let phases = std::iter::once((&study.approach, &data["approach"]));
+    let phases = std::iter::once((&study.approach, &data["parts"][0]["approach"]));
     let after = study.cases.iter().zip(data["cases"].as_array().expect("cases"));
     let after =
         after.map(|(case, data)| (&case.capture.as_ref().expect("a capture").post_impact, &data["post_impact"]));
@@ -491,10 +490,5 @@ fn the_report_says_which_contacts_are_made() {
 
 /// The data that the report's programs read.
 fn report_data(scenario: &Scenario, study: &Study) -> Value {
-    let mut page = Vec::new();
-    write_report(scenario, study, &manifest(scenario), &mut page).expect("written");
-    let page = String::from_utf8(page).expect("UTF-8");
-    let (_, rest) = page.split_once("id=\"data\">").expect("data");
-    let (data, _) = rest.split_once("</script>").expect("an end");
-    serde_json::from_str(data).expect("JSON")
+    data_of(&report(scenario, study))
 }

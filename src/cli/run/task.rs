@@ -13,7 +13,7 @@ use crate::laws::RegisteredLaw;
 use crate::output::console::table_of_parts;
 use crate::output::html_report::write_report;
 use crate::output::result_folder::ResultFolder;
-use crate::output::run_folder::{SUMMARY, origin_in, scenario_in};
+use crate::output::run_folder::{REPORT, SUMMARY, origin_in, scenario_in};
 use crate::output::run_manifest::RunManifest;
 use crate::output::study_part::StudyPart;
 use crate::output::summary::summary_of_parts;
@@ -90,7 +90,7 @@ impl Task<'_> {
         let computed = begin.elapsed();
         let summary = summary_of_parts(scenario, choice.engine.name(), &parts, &manifest)
             .map_err(|source| CommandError::Numbers { file: path.display().to_string(), source })?;
-        let summary = self.write_results(arguments, &parts, summary)?;
+        let summary = self.write_results(arguments, (&parts, &manifest), summary)?;
         if arguments.verbose {
             let written = begin.elapsed().saturating_sub(computed);
             note(format_args!("{named}computed in {computed:.2?}, written in {written:.2?}"));
@@ -140,21 +140,20 @@ impl Task<'_> {
     fn write_results(
         &self,
         arguments: &Arguments,
-        parts: &[StudyPart<'_>],
+        (parts, manifest): (&[StudyPart<'_>], &RunManifest),
         mut summary: Value,
     ) -> Result<Value, CommandError> {
         let folder = &self.folder;
         let staged = folder.stage()?;
         for part in parts {
-            let StudyPart { scenario, study, manifest, .. } = part;
+            let StudyPart { scenario, study, .. } = part;
             file_per_case(&staged, study, "csv", |case, to| write_csv(scenario, study, case, to))?;
-            if arguments.report {
-                let name = part.variant.map_or_else(String::new, |variant| format!("{}.", variant.name()));
-                staged.write(&format!("{name}report.html"), |to| write_report(scenario, study, manifest, to))?;
-            }
             for output in arguments.optional_outputs.requested() {
                 output.write(&staged, part, &arguments.optional_outputs)?;
             }
+        }
+        if arguments.report {
+            staged.write(REPORT, |to| write_report(self.scenario, parts, manifest, to))?;
         }
         let mut files = staged.files()?;
         files.push(SUMMARY.to_owned());

@@ -10,7 +10,7 @@ function velocities(line, now, time) {
   let joint = 0;
   const end_effectors = now.arms.map((arm, i) => {
     let turning = rate, velocity = along([vx, vy], minus(arm.points[0], now.base), rate);
-    study.layout.arms[i].links.forEach((_, k) => {
+    arms[i].links.forEach((_, k) => {
       turning += at(line.joint_rates[joint]);
       joint += 1;
       velocity = along(velocity, minus(arm.points[k + 1] || arm.end_effector, arm.points[k]), turning);
@@ -86,7 +86,7 @@ function drawTorques(chosen, now, screen, scale) {
   const line = state.lines[chosen], turn = 1.5 * Math.PI / greatestShown().torque, radius = thickness(scale) + 8;
   const torques = line.joint_torques.map((column) => between(line, column, state.time));
   let joint = 0;
-  now.arms.forEach((arm, i) => study.layout.arms[i].links.forEach((_, k) => {
+  now.arms.forEach((arm, i) => arms[i].links.forEach((_, k) => {
     const angle = turn * torques[joint], [x, y] = screen(arm.points[k]), end = -Math.PI / 2 - angle;
     joint += 1;
     if (Math.abs(angle) < 0.05) return;

@@ -135,8 +135,8 @@ function audit() {
   const after = one.impacts.length ? "after the impact" : "after the approach";
   // without the objections to other cases
   const others = study.cases.filter((other) => other !== one).map((other) => other.name);
-  const objections = study.objections.filter((text) => !others.some((name) => text.startsWith(`${name}:`) || text.startsWith(`${name},`)));
-  const phases = [one.approach || study.approach, one.post_impact].filter(Boolean);
+  const objections = partOf(one).objections.filter((text) => !others.some((name) => text.startsWith(`${name}:`) || text.startsWith(`${name},`)));
+  const phases = [approachOf(one), one.post_impact].filter(Boolean);
   const [shownSamples, samples] = phases.reduce(([part, all], phase) => [part + phase.time.length, all + phase.samples], [0, 0]);
   const thinned = shownSamples < samples ? [`animation and plots show ${shownSamples} of ${samples} samples`] : [];
   shown.replaceChildren(

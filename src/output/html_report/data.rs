@@ -1,4 +1,4 @@
-//! The data of the HTML report as JSON: layout, motion, targets, impacts, momentum and energy over time.
+//! The data of the HTML report as JSON: layouts, motion, targets, impacts, momentum and energy over time.
 
 use super::contacts::{closing_failures, constraint_openings, distances, impacts_of_case};
 use super::digits;
@@ -8,21 +8,42 @@ use crate::layout::Layout;
 use crate::outline::Outline;
 use crate::output::run_manifest::RunManifest;
 use crate::output::scene::{PALETTE, hexadecimal};
+use crate::output::study_part::StudyPart;
 use crate::output::summary::{least_distance, overlaps};
 use crate::scenario::{Case, Scenario, Variant};
 use crate::simulate::system::Body;
 use crate::simulate::{Phase, Sample};
 use serde_json::{Value, json};
 
-/// The data that the programs of the page read.
-pub(super) fn data(scenario: &Scenario, study: &Study, manifest: &RunManifest) -> Value {
-    let cases = scenario.cases.iter().zip(&study.cases);
-    let mut value = json!({
+/// The data that the programs of the page read: what cases share stands with their part, and the cases are in the order of
+/// the file.
+pub(super) fn data(scenario: &Scenario, parts: &[StudyPart<'_>], manifest: &RunManifest) -> Value {
+    let mut cases = Vec::new();
+    for (i, part) in parts.iter().enumerate() {
+        for (case, result) in part.scenario.cases.iter().zip(&part.study.cases) {
+            let mut value = one_case(part.scenario, &part.study, case, result);
+            value["part"] = json!(i);
+            value["set"] = json!(part.variant.map(Variant::values));
+            cases.push((case.index, value));
+        }
+    }
+    cases.sort_by_key(|(index, _)| *index);
+    json!({
         "scenario": scenario.name,
         "run": manifest.to_json(),
         "palette": PALETTE.map(hexadecimal),
+        "parts": parts.iter().map(one_part).collect::<Vec<_>>(),
+        "cases": cases.into_iter().map(|(_, value)| value).collect::<Vec<_>>(),
+    })
+}
+
+/// Robot, targets and approach of the cases of a part, and how they were computed.
+fn one_part(part: &StudyPart<'_>) -> Value {
+    let StudyPart { scenario, study, manifest, dynamics, .. } = part;
+    let mut run = manifest.to_json_of_case(dynamics);
+    run["layout_toml"] = json!(manifest.layout_toml);
+    let mut value = json!({
         "layout": robot(&scenario.layout),
-        "contact_duration": scenario.contact.duration,
         "targets": scenario.targets.iter().map(|target| json!({
             "name": target.name, "mass": target.mass, "inertia": target.inertia, "radius": target.outline.reach(),
             "polygon": match &target.outline {
@@ -30,10 +51,8 @@ pub(super) fn data(scenario: &Scenario, study: &Study, manifest: &RunManifest) -
                 outline => Some(outline.corners()),
             },
         })).collect::<Vec<_>>(),
-        "cases": cases.map(|(case, result)| one_case(scenario, study, case, result)).collect::<Vec<_>>(),
-        "objections": study.audit_failures(),
-        // they have robots, approaches or outlines of their own, and so pages of their own
-        "others": scenario.variants.iter().map(Variant::name).collect::<Vec<_>>(),
+        "run": run,
+        "objections": part.audit_failures(),
     });
     // with an approach of its own in every case, the study's approach is that without contacts
     if study.cases.iter().any(|case| case.approach.is_none()) {

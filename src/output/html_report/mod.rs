@@ -1,5 +1,5 @@
-//! One HTML file with an animation and plots of a study. It contains its styles, programs and data and opens without a
-//! network.
+//! One HTML file with an animation and plots of all cases of a run, those with values of their own too. It contains its styles,
+//! programs and data and opens without a network.
 //!
 //! uPlot (MIT) draws the plots; the file contains its text and licence.
 //!
@@ -7,17 +7,20 @@
 //! ```
 //! use planar_capture::capture::{Silent, study};
 //! use planar_capture::output::html_report::write_report;
-//! use planar_capture::output::run_manifest::RunManifest;
+//! use planar_capture::output::{run_manifest::RunManifest, study_part::StudyPart};
 //! use planar_capture::registry;
 //! use planar_capture::scenario::Scenario;
+//! use std::borrow::Cow;
 //!
 //! let path = "scenarios/redysim_single_arm_3r.toml";
 //! let (scenario, source) = Scenario::read_with_source(path.as_ref(), registry::SHIPPED).expect("a scenario");
 //! let robot = registry::generated(&scenario.layout)?;
 //! let study = study(&scenario, &|| robot.clone_box(), 1.0, &mut Silent)?;
 //! let manifest = RunManifest::new(&scenario, source, "planar-capture run".to_owned());
+//! let study = Cow::Owned(study);
+//! let part = StudyPart { scenario: &scenario, variant: None, dynamics: "generated", study, manifest: manifest.clone() };
 //! let mut page = Vec::new();
-//! write_report(&scenario, &study, &manifest, &mut page)?;
+//! write_report(&scenario, &[part], &manifest, &mut page)?;
 //! let page = String::from_utf8(page)?;
 //! assert!(page.contains("<title>redysim_single_arm_3r"));
 //! assert!(!page.contains("<script src") && !page.contains("stylesheet")); // all that it needs is in it
@@ -27,9 +30,9 @@
 mod contacts;
 mod data;
 
-use crate::capture::Study;
 use crate::output::markup;
 use crate::output::run_manifest::RunManifest;
+use crate::output::study_part::StudyPart;
 use crate::scenario::Scenario;
 use std::io::{self, Write};
 
@@ -54,22 +57,22 @@ const PARTS: [(&str, &str); 15] = [
     ("/*page.js*/", include_str!("page.js")),
 ];
 
-/// Writes the page.
+/// Writes the page of all parts of a scenario's run, of which there is one at least; the manifest is that of the run.
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_report(scenario: &Scenario, study: &Study, manifest: &RunManifest, mut to: impl Write) -> io::Result<()> {
-    // pages of cases of their own are told apart by their tabs
-    let title = match &manifest.case {
-        Some(case) => format!("{}, {case}", scenario.name),
-        None => scenario.name.clone(),
-    };
-    let mut page = PAGE.replace("<!--title-->", &markup::text(&title));
+pub fn write_report(
+    scenario: &Scenario,
+    parts: &[StudyPart<'_>],
+    manifest: &RunManifest,
+    mut to: impl Write,
+) -> io::Result<()> {
+    let mut page = PAGE.replace("<!--title-->", &markup::text(&scenario.name));
     for (placeholder, text) in PARTS {
         page = page.replace(placeholder, text.trim_end());
     }
     // `</` would end the script element
-    let data = serde_json::to_string(&data::data(scenario, study, manifest))?.replace("</", "<\\/");
+    let data = serde_json::to_string(&data::data(scenario, parts, manifest))?.replace("</", "<\\/");
     to.write_all(page.replacen("/*data*/", &data, 1).as_bytes())
 }
 

@@ -10,12 +10,22 @@ const rotate = ([x, y], angle) => {
 const plus = ([a, b], [c, d]) => [a + c, b + d];
 /** Magnitude of the force part of [n, fx, fy]. */
 const force = ([, fx, fy]) => Math.hypot(fx, fy);
-const armName = (index) => study.layout.arms[index].name;
-const targetName = (index) => study.targets[index].name;
+// The cases of a part share a robot, targets and what computed them. The parts differ in numbers alone: names and counts
+// of arms, links and targets are the same in all.
+const { arms } = study.parts[0].layout;
+const armName = (index) => arms[index].name;
+const targetName = (index) => study.parts[0].targets[index].name;
+/** What the cases of its part share. */
+const partOf = (one) => study.parts[one.part];
+const layoutOf = (one) => partOf(one).layout;
+/** Its own, or that of its part. */
+const approachOf = (one) => one.approach || partOf(one).approach;
+/** A target as a body; `one.targets[index]` is its motion. */
+const bodyOf = (one, index) => partOf(one).targets[index];
 
 /** One case on one axis of time: the concatenated columns of both phases. */
 function timeline(one) {
-  const approach = one.approach || study.approach;
+  const approach = approachOf(one);
   const phases = [approach, ...(one.post_impact ? [one.post_impact] : [])];
   const join = (key) => {
     const merge = (parts) =>
@@ -24,7 +34,7 @@ function timeline(one) {
   };
   const starts = [0, approach.duration];
   const time = phases.flatMap((phase, i) => phase.time.map((t) => t + starts[i]));
-  const columns = { time };
+  const columns = { time, layout: layoutOf(one) };
   for (const key of ["base_pose", "base_twist", "joint_angles", "joint_rates", "joint_torques", "end_effectors",
     "linear_momentum", "angular_momentum", "kinetic_energy"]) columns[key] = join(key);
   const done = approach.work[approach.work.length - 1] || 0;
@@ -63,18 +73,18 @@ function configuration(line, time) {
   const at = (column) => between(line, column, time);
   const [yaw, x, y] = line.base_pose.map(at);
   const poses = [];
-  for (const { parent, pose: [angle, px, py], joint } of study.layout.frames) {
+  for (const { parent, pose: [angle, px, py], joint } of line.layout.frames) {
     const from = poses[parent];
     poses.push(from === undefined ? { angle: yaw, point: [x, y] } : {
       angle: from.angle + angle + (joint === null ? 0 : at(line.joint_angles[joint])),
       point: plus(from.point, rotate([px, py], from.angle)),
     });
   }
-  const arms = study.layout.arms.map((_, arm) => {
-    const own = poses.filter((_, i) => study.layout.frames[i].arm === arm);
+  const placed = arms.map((_, arm) => {
+    const own = poses.filter((_, i) => line.layout.frames[i].arm === arm);
     return { points: own.map(({ point }) => point), angles: own.map(({ angle }) => angle), end_effector: own[own.length - 1].point };
   });
-  return { yaw, base: [x, y], arms };
+  return { yaw, base: [x, y], arms: placed };
 }
 
 /** Pose of each target's COM: free motion until the first impact, then the samples. */

@@ -12,7 +12,7 @@ function setTime(time) {
   scrub.setAttribute("aria-valuetext", `${state.time.toFixed(2)} seconds of ${end.toFixed(0)}, ${phase}`);
   element("clock").replaceChildren(cell("span", `${state.time.toFixed(2)} s of ${end.toFixed(0)} s`), cell("span", phase));
   const overlaps = overlapsAt(one, line, state.time).map(({ bodies }) => bodies.join(" and "));
-  canvas.setAttribute("aria-label", `${study.layout.name} and its targets, ${one.name}, at ${state.time.toFixed(2)} s` +
+  canvas.setAttribute("aria-label", `${layoutOf(one).name} and its targets, ${one.name}, at ${state.time.toFixed(2)} s` +
     (overlaps.length ? `; overlapping: ${overlaps.join(", ")}` : ""));
   draw();
   toAddress();
@@ -83,12 +83,16 @@ function choose(chosen, beside = state.beside) {
   element("other").hidden = !pair;
   const shown = pair ? [["own", canvas, chosen], ["other", element("scene-beside"), state.beside]] : [["own", canvas, chosen]];
   for (const [id, scene, index] of shown) {
-    scene.nextElementSibling.textContent = pair ? study.cases[index].name : "";
-    scene.setAttribute("aria-label", `${study.layout.name} and its targets, ${study.cases[index].name}`);
+    const one = study.cases[index];
+    scene.nextElementSibling.textContent = pair ? one.name : "";
+    Object.assign(element(id).querySelector(".whose"), { textContent: one.name, hidden: !pair });
+    scene.setAttribute("aria-label", `${layoutOf(one).name} and its targets, ${one.name}`);
     contactsTable(element(id), index);
     clearanceTable(element(id), index);
   }
   drawPlots(shown.map(([id, , index]) => [element(id).querySelector(".plots"), index]));
+  about();
+  origin();
   audit();
   setTime(Math.min(state.time, endOfAll()));
   marksOfImpacts();
@@ -149,35 +153,42 @@ function legend() {
   const found = new Set(study.cases.flatMap((one) => one.impacts).flatMap((one) => one.contacts).map((one) => one.kind));
   const words = { rigid: "■ held rigidly", pin: "◯ held by a pin" };
   element("legend").replaceChildren(
-    ...study.layout.arms.map((arm, i) => word(`● ${arm.name}`, armColour(i))),
-    ...study.targets.map((target, i) => word(`◍ ${target.name}`, targetColour(i))),
+    ...arms.map((arm, i) => word(`● ${arm.name}`, armColour(i))),
+    ...study.parts[0].targets.map((target, i) => word(`◍ ${target.name}`, targetColour(i))),
     ...Object.keys(words).filter((kind) => found.has(kind)).map((kind) => word(words[kind])),
     ...(found.size ? [word("▼ impact; arrows: impulses on the robot", theme.impulse)] : []),
     ...(study.cases.some((one) => one.overlaps.length) ? [word("▬ overlap", theme.overlap)] : []));
   if (!found.size) element("ellipse")?.parentElement.remove();
 }
 
-/** The pages of cases with values of their own, beside this one. */
-function others() {
-  const links = study.others.map((name) => Object.assign(cell("a", name), { href: `${encodeURIComponent(name)}.report.html` }));
-  element("others").replaceChildren("Cases with values of their own: ", ...links.flatMap((link, i) => (i ? [", ", link] : [link])));
-  element("others").hidden = !links.length;
+/** A robot and its targets. */
+const described = ({ layout, targets }) => `${layout.name}: base ${layout.base.mass} kg, ` +
+  layout.arms.map((arm) => `${arm.name} of ${arm.links.length} links`).join(", ") +
+  (targets.length ? `; ${targets.map((target) => `${target.name} ${target.mass} kg`).join(", ")}` : "");
+
+/** What the shown cases are of, and the values of their own that they have. */
+function about() {
+  const shown = shownCases().map((index) => study.cases[index]), robots = shown.map((one) => described(partOf(one)));
+  const isOne = robots.every((robot) => robot === robots[0]);
+  const values = shown.filter(({ set }) => set).map(({ name, set }) => `${name} has values of its own: ${set}`);
+  const lines = [...(isOne ? [robots[0]] : robots.map((robot, i) => `${shown[i].name}: ${robot}`)), ...values];
+  element("about").replaceChildren(...lines.map((line) => cell("p", line)));
 }
 
-/** Where the page comes from. */
+/** Where the chosen case comes from. */
 function origin() {
-  const { version, command, scenario_sha256, layout_sha256, integrator, features } = study.run;
+  const { version, command, scenario_sha256, scenario_toml, features } = study.run;
+  const [one] = current(), { dynamics, layout_sha256, layout_toml, integrator } = partOf(one).run;
   const entries = [
     ["scenario", study.scenario], ["planar-capture", version], ["command", command], ["scenario's sha256", scenario_sha256],
-    ["robot's sha256", layout_sha256], ["integrator", Object.entries(integrator).map(([phase, name]) => `${phase}: ${name}`).join(", ")],
+    ...(study.parts.length > 1 ? [["case", one.name]] : []), ...(one.set ? [["its own values", one.set]] : []),
+    ["robot's sha256", layout_sha256], ["dynamics", dynamics],
+    ["integrator", Object.entries(integrator).map(([phase, name]) => `${phase}: ${name}`).join(", ")],
     ["features", features.join(", ")],
   ];
   element("origin").replaceChildren(...entries.flatMap(([name, value]) => [cell("dt", name), cell("dd", value)]));
-  element("scenario").textContent = study.run.scenario_toml;
-  element("robot").textContent = study.run.layout_toml;
-  element("about").textContent = `${study.layout.name}: base ${study.layout.base.mass} kg, ` +
-    study.layout.arms.map((arm) => `${arm.name} of ${arm.links.length} links`).join(", ") +
-    (study.targets.length ? `; ${study.targets.map((target) => `${target.name} ${target.mass} kg`).join(", ")}` : "");
+  element("scenario").textContent = scenario_toml;
+  element("robot").textContent = layout_toml;
 }
 
 function begin() {
@@ -186,14 +197,12 @@ function begin() {
   for (const id of ["own", "other"]) element(id).append(element("details").content.cloneNode(true));
   study.cases.forEach((one, i) => {
     for (const id of ["case", "beside"]) {
-      const option = cell("option", one.name);
+      const option = cell("option", one.set ? `${one.name} · ${one.set}` : one.name);
       option.value = i;
       element(id).append(option);
     }
   });
   if (study.cases.length < 2) element("second").remove();
-  origin();
-  others();
   legend();
 
   preference.addEventListener("change", (event) => switchTheme(event.matches));

@@ -4,18 +4,18 @@ const DASHES = [[], [6, 4], [2, 3], [9, 3, 2, 3], [12, 4], [4, 2, 1, 2, 1, 2], [
 const dash = (i) => DASHES[i % DASHES.length];
 
 /** Names of the joints, arm by arm. */
-const joints = study.layout.arms.flatMap((arm) => arm.links.map((_, k) => `${arm.name} joint ${k + 1}`));
+const joints = arms.flatMap((arm) => arm.links.map((_, k) => `${arm.name} joint ${k + 1}`));
 
 /**
  * The style of each curve: arms and targets have their colours, the joints of an arm, the targets of an arm and the
  * components of a vector their dashes; what is of the base or the whole is in ink.
  */
-const ofJoints = study.layout.arms.flatMap((arm, i) => arm.links.map((_, k) => ({ paint: () => armColour(i), dash: dash(k) })));
+const ofJoints = arms.flatMap((arm, i) => arm.links.map((_, k) => ({ paint: () => armColour(i), dash: dash(k) })));
 const ofWhole = (i) => ({ paint: () => theme.ink, dash: dash(i) });
 
 /** { title, unit, series: [[name, column, style]], span: smallest of the axis, log } of each plot of a case. */
 function charts(one, line) {
-  const masses = [study.layout.base, ...study.layout.arms.flatMap((arm) => arm.links), ...study.targets];
+  const { layout, targets } = partOf(one), masses = [layout.base, ...layout.arms.flatMap((arm) => arm.links), ...targets];
   const mass = masses.reduce((sum, body) => sum + body.mass, 0);
   // smallest span of an axis: a part of the momentum that the kinetic energy could hold, far above rounding errors
   const span = 0.02 * Math.sqrt(2 * mass * Math.max(...line.kinetic_energy)) || 1;
@@ -115,9 +115,10 @@ function drawPlots(places) {
     .reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [Infinity, -Infinity]);
   const ranges = new Map(each.flatMap(({ all }) => all.map(({ title }) => [title, extent(title)])));
   const spanOf = (title) => Math.max(...each.flatMap(({ all }) => all.filter((chart) => chart.title === title)).map(({ span = 0 }) => span));
+  const end = Math.max(...each.map(({ line }) => line.end));
   plots = each.flatMap(({ place, line, all }) => {
     place.replaceChildren();
-    return all.map((chart) => plotOf({ ...chart, span: spanOf(chart.title) }, line, place, ranges.get(chart.title)));
+    return all.map((chart) => plotOf({ ...chart, span: spanOf(chart.title) }, line, place, ranges.get(chart.title), end));
   });
 }
 
@@ -139,7 +140,7 @@ function drawMarkers(plot) {
 /** Whether curves are level but for rounding errors: within a part of the smallest span of their axis. */
 const isFlat = (series, span) => span > 0 && series.every(([, column]) => Math.max(...column) - Math.min(...column) < 1e-6 * span);
 
-function plotOf({ title, unit, series, span = 0, log = false }, line, place, extent) {
+function plotOf({ title, unit, series, span = 0, log = false }, line, place, extent, end) {
   const box = document.createElement("div");
   box.className = "plot";
   box.append(cell("h2", `${title} [${unit}]`));
@@ -154,13 +155,16 @@ function plotOf({ title, unit, series, span = 0, log = false }, line, place, ext
   const y = log
     ? { distr: 3, range: () => [Math.min(extent[0], 1e-16) / 3, Math.max(extent[1], 1e-10) * 3] }
     : { range: () => uPlot.rangeNum(...widened(...extent, span), 0.1, true) };
+  // all of its own time is the time of all; a part of it is what the reader has chosen
+  const [first, last] = [line.time[0], line.time[line.time.length - 1]];
+  const x = { time: false, range: (plot, low, high) => (low === first && high === last ? [0, end] : [low, high]) };
   const axis = { stroke: () => theme.soft, grid: { stroke: () => theme.grid, width: 1 }, ticks: { stroke: () => theme.grid, width: 1 } };
   const plot = new uPlot({
     width: box.clientWidth - 20,
     height: 190,
     pxAlign: 0,
     cursor: { sync: { key: "study" }, drag: { x: true, y: false } },
-    scales: { x: { time: false }, y },
+    scales: { x, y },
     axes: [{ ...axis, label: "time [s]", labelSize: 18, size: 34 }, { ...axis, size: 64, ...(log ? DECADES : {}) }],
     series: [
       { label: "time [s]", value: number },

@@ -37,19 +37,19 @@ function drawScene(chosen, width, height) {
   grid(screen, scale, centre, width, height);
   if (on("traces")) traces(line, screen);
   poses.forEach((pose, i) => {
-    drawTarget(study.targets[i], pose, screen, scale, overlapping, targetColour(i));
+    drawTarget(bodyOf(one, i), pose, screen, scale, overlapping, targetColour(i));
     // lines to all holding contacts show closed loops
     pen.strokeStyle = targetColour(i); pen.lineWidth = 2;
     held.filter((hold) => hold.target === i).forEach((hold) => stroke([pose.point, now.arms[hold.arm].end_effector].map(screen)));
   });
-  drawBase(now, screen, overlapping);
-  now.arms.forEach((arm, i) => drawArm(study.layout.arms[i], arm, armColour(i), screen, scale, overlapping));
+  drawBase(line.layout, now, screen, overlapping);
+  now.arms.forEach((arm, i) => drawArm(line.layout.arms[i], arm, armColour(i), screen, scale, overlapping));
   held.forEach((hold) => drawAttachment(hold, screen(now.arms[hold.arm].end_effector), scale));
   const labels = [];
   line.impacts.forEach((impact) => drawImpact(impact, screen, width, labels));
   const moving = on("velocities") ? drawVelocities(chosen, now, poses, screen) : null;
   const torques = on("forces") ? drawTorques(chosen, now, screen, scale) : null;
-  poses.forEach((pose, i) => nameTarget(study.targets[i], pose, now, screen, scale, width, height, targetColour(i), labels));
+  poses.forEach((pose, i) => nameTarget(bodyOf(one, i), pose, now, screen, scale, width, height, targetColour(i), labels));
   const arrows = line.impacts.filter(isFresh).flatMap((impact) => impact.contacts);
   return { targets: poses, arms: now.arms, overlapping: [...overlapping], arrows, moving, torques };
 }
@@ -66,9 +66,9 @@ function traces(line, screen) {
 /** The overlaps of a case that last at a time; one that a contact ends, which is known to 1e-9 s, is over then. */
 const overlapsAt = (one, line, time) => one.overlaps.filter(({ from, to }) => from <= time && (time < to - 1e-8 || to > line.end - 1e-8));
 
-function drawBase(now, screen, overlapping) {
-  const box = [[1, 1], [-1, 1], [-1, -1], [1, -1]].map(([a, b]) => [a * base[0], b * base[1]]);
-  const corners = (study.layout.base.outline || box).map((corner) => plus(now.base, rotate(corner, now.yaw)));
+function drawBase(layout, now, screen, overlapping) {
+  const base = halfBase(layout), box = [[1, 1], [-1, 1], [-1, -1], [1, -1]].map(([a, b]) => [a * base[0], b * base[1]]);
+  const corners = (layout.base.outline || box).map((corner) => plus(now.base, rotate(corner, now.yaw)));
   const inside = overlapping.has("base");
   pen.lineWidth = inside ? 3 : 1.5;
   area(corners.map(screen), theme.body, inside ? theme.overlap : theme.edge);

@@ -19,7 +19,7 @@ function setDark(dark) {
 /** Colour `index`: those of the arms, then those of the targets, as in the figures; after the palette comes the ink. */
 const colour = (index) => study.palette[index % (study.palette.length + 1)] || theme.ink;
 const armColour = (arm) => colour(arm);
-const targetColour = (target) => colour(Math.max(study.layout.arms.length, 2) + target);
+const targetColour = (target) => colour(Math.max(arms.length, 2) + target);
 
 /** A colour `#rrggbb` with an opacity. */
 const faint = (hexadecimal, opacity) => `${hexadecimal}${Math.round(255 * opacity).toString(16).padStart(2, "0")}`;

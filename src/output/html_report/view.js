@@ -1,7 +1,7 @@
 // The visible part of the plane.
 
 /** Half side lengths of the base. */
-const base = study.layout.base.size.map((side) => side / 2);
+const halfBase = ({ base }) => base.size.map((side) => side / 2);
 
 /** The times at which a target is to be visible: its impacts, its closest approach, a grasp that does not close. */
 function instants(one, line, target) {
@@ -25,12 +25,12 @@ function bounds(one, line, view) {
   const steps = 160, times = Array.from({ length: steps + 1 }, (_, i) => line.end * i / steps);
   for (const time of [...times, ...matters.flat()]) {
     const now = configuration(line, time), origin = view === "follow" ? now.base.map((part) => -part) : [0, 0];
-    add(plus(now.base, origin), Math.hypot(...base));
+    add(plus(now.base, origin), Math.hypot(...halfBase(line.layout)));
     now.arms.forEach((arm) => arm.points.forEach((point) => add(plus(point, origin), 0.05)));
     targetPoses(one, line, time).forEach((pose, i) => {
       const held = line.holds.some((hold) => hold.target === i && hold.time <= time);
       const near = matters[i].some((instant) => Math.abs(time - instant) <= 2);
-      if (view === "everything" || held || near) add(plus(pose.point, origin), study.targets[i].radius);
+      if (view === "everything" || held || near) add(plus(pose.point, origin), bodyOf(one, i).radius);
     });
   }
   return box;
