@@ -71,13 +71,23 @@ pub fn origin_in(folder: &Path) -> Option<[String; 2]> {
     Some([text("command")?, text("scenario_sha256")?])
 }
 
+/// The files of the results in a folder, as their summary lists them.
+#[must_use]
+pub fn files_in(folder: &Path) -> Vec<String> {
+    let summary = read(&folder.join(SUMMARY)).unwrap_or_default();
+    summary["files"].as_array().into_iter().flatten().filter_map(Value::as_str).map(str::to_owned).collect()
+}
+
 /// Removes the results in a folder: the summary, without which they are none, and the files that it lists.
 ///
 /// # Errors
 /// [`OutputError`] with the reason.
 pub fn remove(folder: &Path) -> Result<(), OutputError> {
-    let Some(summary) = read(&folder.join(SUMMARY)) else { return Ok(()) };
-    let files = summary["files"].as_array().into_iter().flatten().filter_map(Value::as_str).map(Path::new);
+    if scenario_in(folder).is_none() {
+        return Ok(());
+    }
+    let listed = files_in(folder);
+    let files = listed.iter().map(Path::new);
     // no run lists a file beside its folder
     let inside = |file: &&Path| file.components().all(|part| matches!(part, Component::Normal(_)));
     for file in [Path::new(SUMMARY)].into_iter().chain(files.filter(inside)) {

@@ -52,8 +52,12 @@ fn a_run_replaces_an_earlier_one_of_its_scenario_whole() {
     assert_eq!(names(&results), ["a.csv", "b.csv", "report.html", "summary.json"]);
     assert_eq!(names(&folder.path().join("new")), ["results"], "no temporary files");
     scenario("one", &["b", "c"], folder.path());
-    assert_eq!(run(&one, &results, &[]), (0, String::new()));
+    let (code, err) = run(&one, &results, &[]);
     assert_eq!(names(&results), ["b.csv", "c.csv", "summary.json"], "nothing of the earlier run is left");
+    let said = format!("removed from {}, as this run has no such files: report.html, a.csv\n", results.display());
+    assert_eq!((code, err), (0, said));
+    // once
+    assert_eq!(run(&one, &results, &[]), (0, String::new()));
 }
 
 /// Another file of the same scenario's name is said to replace the one before; one that was edited is the same file.
@@ -71,7 +75,8 @@ fn results_of_another_file_are_replaced_with_a_word() {
     assert!(code == 0 && err.lines().count() == 1, "{err}");
     assert!(err.contains("the results of another file were in ") && err.contains(&second), "{err}");
     scenario("one", &["c"], folder.path());
-    assert_eq!(run(&first, &results, &[]), (0, String::new()));
+    let (code, err) = run(&first, &results, &[]);
+    assert!(code == 0 && err.lines().count() == 1 && err.ends_with("no such files: b.csv\n"), "{err}");
 }
 
 /// The folder of several runs holds none itself: `--force`, which would delete them, is no advice.
@@ -118,7 +123,8 @@ fn some_cases_can_be_computed_alone() {
     assert!(page.contains("\"name\":\"b\"") && page.contains("\"name\":\"own\"") && !page.contains("\"name\":\"a\""));
     let (code, err) = run(&path, &some, &["--case", "d"]);
     assert!(code == 2 && err.contains("has no case `d`, expected one of `a`, `b`, `c`, `own`"), "{err}");
-    assert_eq!(run(&path, &some, &["--case", "own"]), (0, String::new()));
+    let (code, err) = run(&path, &some, &["--case", "own"]);
+    assert!(code == 0 && err.ends_with("no such files: report.html, b.csv\n"), "{err}");
     assert_eq!(names(&some), ["own.csv", "summary.json"], "of cases with values of their own alone");
 }
 

@@ -13,7 +13,7 @@ use crate::laws::RegisteredLaw;
 use crate::output::console::table_of_parts;
 use crate::output::html_report::write_report;
 use crate::output::result_folder::ResultFolder;
-use crate::output::run_folder::{REPORT, SUMMARY, origin_in, scenario_in};
+use crate::output::run_folder::{REPORT, SUMMARY, files_in, origin_in, scenario_in};
 use crate::output::run_manifest::RunManifest;
 use crate::output::study_part::StudyPart;
 use crate::output::summary::summary_of_parts;
@@ -164,12 +164,29 @@ impl Task<'_> {
             writeln!(to)
         })?;
         let other = self.other_file(summary["run"]["scenario_sha256"].as_str().unwrap_or_default());
+        let dropped = self.dropped(&summary);
         folder.commit(staged, SUMMARY)?;
         if let Some(command) = other {
             let (named, folder) = (&self.named, folder.path().display());
             note(format_args!("{named}the results of another file were in {folder} and are replaced: {command}"));
+        } else if !dropped.is_empty() {
+            let (named, folder, dropped) = (&self.named, folder.path().display(), in_words(&dropped));
+            note(format_args!("{named}removed from {folder}, as this run has no such files: {dropped}"));
         }
         Ok(summary)
+    }
+
+    /// The files in the folder that are results of the same scenario, and that these results have not.
+    fn dropped(&self, summary: &Value) -> Vec<String> {
+        let folder = self.folder.path();
+        // of another scenario, the user has asked for it by --force
+        if scenario_in(folder).is_none_or(|name| name != self.scenario.name) {
+            return Vec::new();
+        }
+        let now: Vec<_> = summary["files"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
+        let mut dropped = files_in(folder);
+        dropped.retain(|file| !now.contains(&file.as_str()) && folder.join(file).is_file());
+        dropped
     }
 
     /// The command whose results are in the folder, where it had another file of the same scenario's name: one that was
@@ -184,6 +201,29 @@ impl Task<'_> {
         let is_other = before != sha256 && !shlex::split(&command)?.iter().any(is_this);
         is_other.then_some(command)
     }
+}
+
+/// Most files that are named.
+const NAMED: usize = 4;
+
+/// Names of sorted files, several in a folder as their number, and how many more there are.
+fn in_words(files: &[String]) -> String {
+    let folder = |file: &str| file.split_once('/').map(|(folder, _)| folder.to_owned());
+    let mut names: Vec<_> = files
+        .chunk_by(|a, b| folder(a).is_some() && folder(a) == folder(b))
+        .map(|inside| match (folder(&inside[0]), inside.len()) {
+            (Some(folder), count) if count > 1 => format!("{count} files in {folder}"),
+            _ => inside[0].clone(),
+        })
+        .collect();
+    // what reruns leave out most
+    names.sort_by_key(|name| name != REPORT);
+    let more = match names.len().saturating_sub(NAMED) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    names.truncate(NAMED);
+    names.join(", ") + &more
 }
 
 /// What computes a variant of the task's scenario.
