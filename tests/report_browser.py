@@ -16,7 +16,7 @@ import tomllib
 from pathlib import Path
 
 from playwright.sync_api import sync_playwright
-from report_cases import VALUES, own_values
+from report_cases import VALUES, outward_impulses, own_values
 from report_contacts import CHECKS, picture, scrub
 from report_controls import use_controls
 
@@ -92,6 +92,7 @@ def main():
             use(page, out / "report.html", options.pictures, check)
             page.close()
             print(f"{scenario}: plays, scrubs, no error, no request", file=sys.stderr)
+        outward_impulses(chromium, options.binary, Path(folder))
         own_values(chromium, options.binary, Path(folder), options.pictures)
         print(f"cases with values of their own beside others: {', '.join(VALUES)}", file=sys.stderr)
         chromium.close()

@@ -6,7 +6,7 @@ from pathlib import Path
 from urllib.parse import urlencode
 
 from report_contacts import picture, scrub
-from report_controls import SIZES
+from report_controls import COVERED, SIZES
 
 ROOT = Path(__file__).resolve().parent.parent
 VALUES = {
@@ -15,6 +15,33 @@ VALUES = {
     "layout.arm.arm1.link[2].length": 0.8,
     "target.target1.radius": 0.4,
 }
+
+# a light box between two stretched arms: its impulses point out of what they reach
+BOUNCES = """name = "bounces"
+layout = "dual_arm_3r"
+[initial]
+joint_angles = [0.698, -1.571, 1.047, 2.444, 1.571, -1.047]
+[approach]
+duration = 3.0
+trajectory = "cycloidal"
+tracking = "exact"
+final_joint_angles = [0.698, -1.571, 1.047, 2.444, 1.571, -1.047]
+[contact]
+detection = "event"
+[[target]]
+name = "box"
+arm = ["arm1", "arm2"]
+kind = "bounce"
+restitution = 1.0
+mass = 0.1
+inertia = 1e3
+polygon = [[-0.2, -0.1], [0.2, -0.1], [0.2, 0.1], [-0.2, 0.1]]
+position = [0.0, 0.05]
+twist = [0.0, 3.0, 0.0]
+[post_impact]
+duration = 9.0
+control = "hold"
+"""
 
 
 def scenario(folder):
@@ -91,3 +118,22 @@ def beside(page, uri, heard):
         pictures = page.evaluate("[...document.querySelectorAll('#scenes canvas')].map((one) => one.toDataURL())")
         assert len(set(pictures)) == 2
     assert not heard, heard
+
+
+def outward_impulses(chromium, binary, folder):
+    """Arrows that point out of what the arms reach are in the picture all the same, on a phone too."""
+    file, out = folder / "bounces.toml", folder / "bounces"
+    file.write_text(BOUNCES)
+    run = [binary, "run", file, "--out", out, "--report"]
+    subprocess.run(run, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    page = chromium.new_page(viewport={"width": 1280, "height": 900})
+    page.goto((out / "report.html").as_uri())
+    for width, height in SIZES:
+        page.set_viewport_size({"width": width, "height": height})
+        times = page.evaluate("current()[1].impacts.map(({ time }) => time)")
+        assert len(times) > 4, times
+        for time in times:
+            scrub(page, time)
+            covered = page.evaluate(COVERED)
+            assert not covered["tips"] and not covered["outside"] and not covered["arrows"], (width, time, covered)
+    page.close()

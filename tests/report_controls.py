@@ -15,6 +15,15 @@ NAMELESS = """() => [...document.querySelectorAll("button, select, input, summar
     .map((one) => one.outerHTML)"""
 
 
+COVERED = """() => {
+    const { texts, lines } = state.shown, outside = ([left, top, right, bottom]) =>
+        left < 0 || top < 0 || right > canvas.clientWidth || bottom > canvas.clientHeight;
+    const tips = lines.map(([, [x, y]]) => [x, y, x, y]);
+    return { count: texts.length, outside: texts.filter(outside), tips: tips.filter(outside),
+        arrows: texts.filter((text) => lines.some((line) => passes(line, text))) };
+}"""
+
+
 def box(page, selector):
     """Place and size of an element on the screen."""
     return page.locator(selector).bounding_box()
@@ -76,6 +85,28 @@ def address(page, file):
     assert page.evaluate("state.time") == 1.5
     legend = page.locator(".u-legend .u-value").all_inner_texts()
     assert legend and not [value for value in legend if value in ("", "--")], "values from the start"
+
+
+def labels(page):
+    """No label lies on an arrow, whether velocities are shown or not; labels and impulses are inside the picture."""
+    page.click("#more summary")
+    found = 0
+    for index in range(page.locator("#case option").count()):
+        page.select_option("#case", index=index)
+        for shown in (False, True):
+            page.set_checked("#velocities", shown)
+            for time in page.evaluate("current()[1].impacts.map(({ time }) => time)"):
+                for later in (0, 0.5, 2):
+                    scrub(page, time + later)
+                    at = f"{time + later} s of case {index}"
+                    covered = page.evaluate(COVERED)
+                    assert not covered["arrows"] and not covered["outside"], (at, covered)
+                    assert shown or not covered["tips"], (at, covered)
+                    found += covered["count"]
+    page.uncheck("#velocities")
+    page.keyboard.press("Escape")
+    page.select_option("#case", index=0)
+    return found
 
 
 def origin(page, summary):
@@ -215,6 +246,7 @@ def use_controls(page, file, pictures):
     origin(page, summary)
     keys(page)
     arrows(page, summary)
+    assert labels(page) or not summary["cases"][0].get("impact")
     overlaps(page, summary)
     two_cases(page)
     saved(page, summary)

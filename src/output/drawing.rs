@@ -43,7 +43,7 @@ pub fn drawing(layout: &Layout, joint_angles: &[f64]) -> String {
     let state = RobotState { base_pose: [0.0; 3], joint_angles, base_twist: [0.0; 3], joint_rates };
     let poses = poses(&frames, &state, &[]);
     let visuals = robot_visuals(layout);
-    let view = View::new(&frames, &visuals, std::slice::from_ref(&poses));
+    let view = View::new(&frames, &visuals, std::slice::from_ref(&poses), &[]);
     let at = |pose: [f64; 3], inner: [f64; 2]| view.pixel(point(pose, inner));
     let (mut bodies, mut marks, mut names) = (String::new(), String::new(), String::new());
     for (frame, pose) in frames.iter().zip(&poses) {

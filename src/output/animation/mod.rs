@@ -23,6 +23,7 @@ pub(super) mod clip;
 mod labels;
 pub(super) mod view;
 
+use crate::capture::impact::ContactResult;
 use crate::capture::{CaseResult, Study};
 use crate::frames::poses;
 use crate::output::impacts::{ImpactEvent, impacts};
@@ -33,9 +34,9 @@ use crate::scenario::Scenario;
 use bodies::{Hold, Motion};
 pub(super) use bodies::{colour, path};
 use clip::{Clip, short};
-use labels::Labels;
+use labels::{Labels, Place};
 use std::fmt::Write as _;
-use view::{View, WIDTH, round_number};
+use view::{Arrow, View, WIDTH, round_number};
 
 /// Instants per second of the picture.
 pub const RATE: f64 = 12.5;
@@ -84,9 +85,11 @@ pub fn animation(scenario: &Scenario, study: &Study, case: &CaseResult, excerpt:
         let targets: Vec<_> = row.targets.iter().map(|target| target.pose).collect();
         poses(&frames, &row.sample.state, &targets)
     };
-    let view = View::new(&frames, &visuals(scenario), &rows.iter().map(of_row).collect::<Vec<_>>());
     let mut events = impacts(study, case);
     events.retain(|event| event.time <= until);
+    let arrows = arrows(&events);
+    let ends: Vec<_> = arrows.iter().map(|arrow| arrow.ends).collect();
+    let view = View::new(&frames, &visuals(scenario), &rows.iter().map(of_row).collect::<Vec<_>>(), &ends);
     let still = events.first().map_or(rows.len() - 1, |event| times.partition_point(|time| *time < event.time));
     let holds: Vec<_> = events.iter().flat_map(holds).collect();
     let motion =
@@ -110,7 +113,7 @@ pub fn animation(scenario: &Scenario, study: &Study, case: &CaseResult, excerpt:
         traces(&view, &rows),
         motion.bodies(),
         pointers(&view, &clip, scenario, &rows, still),
-        impulses(&view, &clip, &events),
+        impulses(&view, &clip, &arrows),
         rail(&view, &clip, &events, times[times.len() - 1]),
     )
 }
@@ -185,37 +188,57 @@ fn traces(view: &View, rows: &[TimeSeriesRow<'_>]) -> String {
     (0..arms).map(path).collect()
 }
 
-/// At each impact the impulses on the robot, as arrows with their magnitudes.
-fn impulses(view: &View, clip: &Clip, events: &[ImpactEvent<'_>]) -> String {
-    let contacts = |event: &ImpactEvent<'_>| {
-        let of = |contact: &crate::capture::impact::ContactResult| {
-            let [_, x, y] = event.before.end_effector_poses[contact.contact.arm];
-            let [_, fx, fy] = contact.impulse;
-            ([x, y], [fx, fy], libm::hypot(fx, fy))
-        };
-        event.solution.contacts.iter().map(of).collect::<Vec<_>>()
+/// The impulse on the robot at a contact.
+struct Impulse {
+    /// Of the impact, s.
+    time: f64,
+    /// N s.
+    size: f64,
+    ends: Arrow,
+}
+
+/// Of all impacts, in their order, of one scale.
+fn arrows(events: &[ImpactEvent<'_>]) -> Vec<Impulse> {
+    let contacts = events.iter().flat_map(|event| event.solution.contacts.iter().map(move |contact| (event, contact)));
+    let sized = contacts.map(|(event, contact)| (event, contact, libm::hypot(contact.impulse[1], contact.impulse[2])));
+    let most = sized.clone().fold(0.0, |most: f64, (.., size)| most.max(size));
+    let arrow = |(event, contact, size): (&ImpactEvent<'_>, &ContactResult, f64)| {
+        let [_, x, y] = event.before.end_effector_poses[contact.contact.arm];
+        let [_, fx, fy] = contact.impulse;
+        let way = [fx, fy].map(|part| part / size * (ARROW * size / most).max(16.0));
+        Impulse { time: event.time, size, ends: Arrow { from: [x, y], way } }
     };
-    let most = events.iter().flat_map(contacts).fold(0.0, |most: f64, (.., size)| most.max(size));
-    let (mut drawn, mut labels) = (String::new(), Labels::default());
-    for event in events {
-        let seen = [event.time, event.time + IMPULSE_SHOWN * clip.speed()];
-        let mut arrows = String::new();
-        for (from, force, size) in contacts(event).into_iter().filter(|(.., size)| *size > 1e-9) {
-            let [x, y] = view.pixel(from);
-            let length = (ARROW * size / most).max(16.0);
-            let way = [force[0] / size, -force[1] / size];
-            let [tip_x, tip_y] = [x + length * way[0], y + length * way[1]];
+    sized.filter(|(.., size)| *size > 1e-9).map(arrow).collect()
+}
+
+/// At each impact the impulses on the robot, as arrows with their magnitudes.
+fn impulses(view: &View, clip: &Clip, arrows: &[Impulse]) -> String {
+    let (mut drawn, mut labels) = (String::new(), Labels::new(view.height));
+    let seen = |time: f64| [time, time + IMPULSE_SHOWN * clip.speed()];
+    let pixels = |Arrow { from, way }: Arrow| {
+        let [x, y] = view.pixel(from);
+        [[x, y], [x + way[0], y - way[1]]]
+    };
+    // before the first label
+    for Impulse { time, ends, .. } in arrows {
+        labels.arrow(pixels(*ends), seen(*time));
+    }
+    for together in arrows.chunk_by(|a, b| a.time.total_cmp(&b.time).is_eq()) {
+        let (seen, mut group) = (seen(together[0].time), String::new());
+        for Impulse { size, ends, .. } in together {
+            let [[x, y], [tip_x, tip_y]] = pixels(*ends);
+            let length = libm::hypot(tip_x - x, tip_y - y);
+            let way = [(tip_x - x) / length, (tip_y - y) / length];
             let corner = |side: f64| {
                 let [a, b] = [tip_x - 12.0 * way[0] - side * way[1], tip_y - 12.0 * way[1] + side * way[0]];
                 format!("{} {}", short(a, 1), short(b, 1))
             };
             let [x, y, ends_x, ends_y] =
                 [x, y, tip_x - 8.0 * way[0], tip_y - 8.0 * way[1]].map(|value| short(value, 1));
-            let (anchor, beside) = if way[0] < 0.0 { ("end", -8.0) } else { ("start", 8.0) };
-            let text = format!("{} N s", significant(size));
-            let [label_x, label_y] = labels.place([tip_x + beside, tip_y + 4.0], &text, anchor == "end", seen);
+            let text = format!("{} N s", significant(*size));
+            let Place { at: [label_x, label_y], anchor } = labels.place([tip_x, tip_y], way, &text, seen);
             let _ = write!(
-                arrows,
+                group,
                 "<path class=\"head\" d=\"M{} {}L{}L{}Z\"/><path class=\"impulse\" d=\"M{x} {y}L{ends_x} {ends_y}\"/>\
                  <text x=\"{}\" y=\"{}\" text-anchor=\"{anchor}\">{text}</text>",
                 short(tip_x, 1),
@@ -226,7 +249,7 @@ fn impulses(view: &View, clip: &Clip, events: &[ImpactEvent<'_>]) -> String {
                 short(label_y, 1),
             );
         }
-        drawn += &clip.seen(seen[0], Some(seen[1]), &arrows);
+        drawn += &clip.seen(seen[0], Some(seen[1]), &group);
         drawn.push('\n');
     }
     drawn

@@ -40,6 +40,24 @@ impl Extent {
     }
 }
 
+/// An arrow from a point, m, and its way, px, y upwards.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::output) struct Arrow {
+    pub(in crate::output) from: [f64; 2],
+    pub(in crate::output) way: [f64; 2],
+}
+
+/// How far arrows go below an extent and above it along each axis at a scale, px; what is within the margin is not counted.
+fn beyond(extent: Extent, arrows: &[Arrow], scale: f64) -> [[f64; 2]; 2] {
+    let most = |over: &dyn Fn(&Arrow, usize) -> f64| {
+        [0, 1].map(|i| arrows.iter().map(|arrow| over(arrow, i) - 0.5 * MARGIN).fold(0.0, f64::max))
+    };
+    [
+        most(&|arrow, i| scale * (extent.low[i] - arrow.from[i]) - arrow.way[i]),
+        most(&|arrow, i| scale * (arrow.from[i] - extent.high[i]) + arrow.way[i]),
+    ]
+}
+
 /// Where points of the plane are in the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::output) struct View {
@@ -52,8 +70,13 @@ pub(in crate::output) struct View {
 }
 
 impl View {
-    /// That contains the robot at all times, and the targets when they are near it; `poses` has those of the frames.
-    pub(in crate::output) fn new(frames: &[Frame], visuals: &[Visual], poses: &[Vec<[f64; 3]>]) -> Self {
+    /// That contains the robot at all times, the targets when they are near it, and arrows; `poses` has those of the frames.
+    pub(in crate::output) fn new(
+        frames: &[Frame],
+        visuals: &[Visual],
+        poses: &[Vec<[f64; 3]>],
+        arrows: &[Arrow],
+    ) -> Self {
         let is_target = |frame: &Frame| matches!(frame.motion, FrameMotion::Target(_));
         let outline = |i: usize| {
             let visual = visuals.iter().find(|visual| visual.frame == frames[i].name);
@@ -76,14 +99,20 @@ impl View {
             let shown = targets.iter().filter(|(i, _)| near.is_near([poses[*i][1], poses[*i][2]]));
             extent = shown.fold(extent, |extent, (i, corners)| widened(extent, &poses[*i], corners));
         }
-        Self::of(extent)
+        Self::of(extent, arrows)
     }
 
-    fn of(extent: Extent) -> Self {
+    fn of(extent: Extent, arrows: &[Arrow]) -> Self {
         let [width, height] = extent.sides();
-        let scale = ((WIDTH - 2.0 * MARGIN) / width).min((HEIGHTS[1] - 2.0 * MARGIN) / height);
-        let height = (scale * height + 2.0 * MARGIN).clamp(HEIGHTS[0], HEIGHTS[1]).round();
-        let centre = [0, 1].map(|i| f64::midpoint(extent.low[i], extent.high[i]));
+        let fitting = |[across, down]: [f64; 2]| {
+            ((WIDTH - 2.0 * MARGIN - across) / width).min((HEIGHTS[1] - 2.0 * MARGIN - down) / height)
+        };
+        // beyond the extent in pixels: at a smaller scale, a little more
+        let [low, high] = beyond(extent, arrows, 0.8 * fitting([0.0; 2]));
+        let more = [0, 1].map(|i| low[i] + high[i]);
+        let scale = fitting(more);
+        let height = (scale * height + 2.0 * MARGIN + more[1]).clamp(HEIGHTS[0], HEIGHTS[1]).round();
+        let centre = [0, 1].map(|i| f64::midpoint(extent.low[i], extent.high[i]) + 0.5 * (high[i] - low[i]) / scale);
         Self { scale, height, centre }
     }
 
@@ -140,15 +169,26 @@ pub(in crate::output) fn round_number(least: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Extent, View, WIDTH, round_number};
+    use super::{Arrow, Extent, View, WIDTH, round_number};
 
     #[test]
     fn what_is_shown_is_inside_the_picture() {
         for (low, high) in [([-3.0, -1.0], [3.0, 1.0]), ([0.0, 0.0], [0.1, 4.0])] {
-            let view = View::of(Extent { low, high });
-            for corner in [low, high] {
-                let [x, y] = view.pixel(corner);
-                assert!(x > 20.0 && x < WIDTH - 20.0 && y > 20.0 && y < view.height - 20.0, "{corner:?} at {x}, {y}");
+            for way in [None, Some([90.0, 0.0]), Some([-30.0, 90.0]), Some([0.0, -90.0])] {
+                let arrows: Vec<_> =
+                    way.into_iter().flat_map(|way| [low, high].map(|from| Arrow { from, way })).collect();
+                let view = View::of(Extent { low, high }, &arrows);
+                let ends = arrows.iter().map(|arrow| {
+                    let [x, y] = view.pixel(arrow.from);
+                    [x + arrow.way[0], y - arrow.way[1]]
+                });
+                for [x, y] in [low, high].map(|corner| view.pixel(corner)).into_iter().chain(ends) {
+                    assert!(x > 5.0 && x < WIDTH - 5.0 && y > 5.0 && y < view.height - 5.0, "{way:?}: {x}, {y}");
+                }
+                if arrows.is_empty() {
+                    let [x, y] = view.pixel(low);
+                    assert!(x > 20.0 && y < view.height - 20.0, "{x}, {y}");
+                }
             }
         }
     }

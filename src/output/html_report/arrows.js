@@ -65,13 +65,15 @@ function arrow(from, [x, y], paint) {
 const LONGEST = 70;
 
 /** Velocities of end effectors, base and targets, the greatest of all shown with 70 pixels; those now, in m/s. */
-function drawVelocities(chosen, now, poses, screen) {
+function drawVelocities(chosen, now, poses, screen, notes) {
   const [one, line] = [study.cases[chosen], state.lines[chosen]];
   const scale = LONGEST / greatestShown().speed, { base: [, vx, vy], end_effectors } = velocities(line, now, state.time);
   const draw = (point, [x, y], paint) => {
-    arrow(screen(point), [scale * x, -scale * y], paint);
-    const size = speed([x, y]);
-    if (scale * size >= 4) label(`${size.toPrecision(2)} m/s`, plus(screen(point), [scale * x + 8, -scale * y - 6]), paint);
+    const [from, way, size] = [screen(point), [scale * x, -scale * y], speed([x, y])];
+    arrow(from, way, paint);
+    if (scale * size < 4) return;
+    notes.arrow(from, plus(from, way));
+    notes.atTip(`${size.toPrecision(2)} m/s`, paint, plus(from, way), way);
   };
   end_effectors.forEach((velocity, arm) => draw(now.arms[arm].end_effector, velocity, armColour(arm)));
   draw(now.base, [vx, vy], theme.edge);

@@ -38,18 +38,72 @@ function label(text, [x, y], colour) {
   pen.fillText(text, x, y);
 }
 
-/** Where text begins that is to begin at `left`, and to be inside a picture of this width. */
-function textStart(text, left, width, edge = 4) {
-  pen.font = TEXT;
-  return Math.max(edge, Math.min(left, width - edge - pen.measureText(text).width));
+/** Whether a segment passes through the rectangle [left, top, right, bottom]. */
+function passes([[ax, ay], [bx, by]], [left, top, right, bottom]) {
+  let [from, to] = [0, 1];
+  for (const [start, way, low, high] of [[ax, bx - ax, left, right], [ay, by - ay, top, bottom]]) {
+    if (way === 0) {
+      if (start < low || start > high) return false;
+      continue;
+    }
+    const [enter, leave] = [(low - start) / way, (high - start) / way].sort((a, b) => a - b);
+    [from, to] = [Math.max(from, enter), Math.min(to, leave)];
+  }
+  return from <= to;
 }
 
-/** A place for text of this width, below the labels there are at the one that is wanted. */
-function below(labels, [x, y], width) {
-  const line = 15, near = labels.filter(([left, , right]) => left < x + width && x < right).sort(([, a], [, b]) => a - b);
-  for (const [, other] of near) if (Math.abs(y - other) < line) y = other + line;
-  labels.push([x, y, x + width]);
-  return [x, y];
+const LINE = 15;
+
+/** The rectangle of text of this width whose baseline begins at a point, with a margin. */
+const frameOf = ([x, y], width) => [x - 3, y - 13, x + width + 3, y + 5];
+
+/**
+ * The first of some places for text of this width, each inside a picture, where it is neither on an arrow nor on another
+ * text; where there is none, a line above or below one of them, as few lines as will do.
+ */
+function freePlace(places, width, [across, down], arrows, frames) {
+  const inside = ([x, y]) => [Math.max(4, Math.min(x, across - 4 - width)), Math.max(14, Math.min(y, down - 6))];
+  const isFree = (place) => {
+    const frame = frameOf(place, width), [left, top, right, bottom] = frame;
+    return !arrows.some((arrow) => passes(arrow, frame)) &&
+      !frames.some(([a, b, c, d]) => left < c && a < right && top < d && b < bottom);
+  };
+  const lines = Array.from({ length: 12 }, (_, i) => (i % 2 ? 1 : -1) * Math.ceil(i / 2));
+  const all = lines.flatMap((line) => places.map(([x, y]) => inside([x, y + LINE * line])));
+  return all.find(isFree) || all[0];
+}
+
+/** The arrows of a picture, and its texts, which are written when all arrows are known: off these. */
+class Notes {
+  constructor(width, height) { Object.assign(this, { size: [width, height], arrows: [], texts: [] }); }
+
+  /** An arrow that is drawn. */
+  arrow(from, to) { this.arrows.push([from, to]); }
+
+  /** A text at the first of some places that is free; each is where it begins, of its width. */
+  text(text, paint, places) { this.texts.push({ text, paint, places, alpha: pen.globalAlpha }); }
+
+  /** A text at the tip of an arrow, which points along `way`. */
+  atTip(text, paint, [x, y], [across, down]) {
+    this.text(text, paint, (width) => {
+      const beside = [[x + 10, y + 4], [x - 10 - width, y + 4]], beyond = [x - width / 2, y + (down < 0 ? -10 : 20)];
+      return [...(across < 0 ? beside.reverse() : beside), beyond];
+    });
+  }
+
+  /** Writes all, and returns where. */
+  write() {
+    const frames = [], alpha = pen.globalAlpha;
+    for (const one of this.texts) {
+      pen.font = TEXT;
+      const width = pen.measureText(one.text).width, at = freePlace(one.places(width), width, this.size, this.arrows, frames);
+      frames.push(frameOf(at, width));
+      pen.globalAlpha = one.alpha;
+      label(one.text, at, one.paint);
+    }
+    pen.globalAlpha = alpha;
+    return frames;
+  }
 }
 
 function arrowHead([x, y], angle, colour, size = 9) {

@@ -24,8 +24,11 @@ function draw() {
 function drawScene(chosen, width, height) {
   const one = study.cases[chosen], line = state.lines[chosen], time = Math.min(state.time, line.end), now = configuration(line, time);
   const [box, view] = viewOf();
-  const scale = 0.92 * Math.min(width / (box[2] - box[0]), height / (box[3] - box[1]));
-  const centre = plus([(box[0] + box[2]) / 2, (box[1] + box[3]) / 2], view === "follow" ? now.base : [0, 0]);
+  const fitting = (across, down) => 0.92 * Math.min(across / (box[2] - box[0]), down / (box[3] - box[1]));
+  const [left, low, right, high] = view === "follow" ? [0, 0, 0, 0] : beyondBox(box, 0.8 * fitting(width, height));
+  const scale = fitting(width - left - right, height - low - high);
+  const middle = [(box[0] + box[2]) / 2 + (right - left) / 2 / scale, (box[1] + box[3]) / 2 + (high - low) / 2 / scale];
+  const centre = plus(middle, view === "follow" ? now.base : [0, 0]);
   const screen = ([x, y]) => [width / 2 + scale * (x - centre[0]), height / 2 - scale * (y - centre[1])];
   const held = line.holds.filter((hold) => hold.time <= time);
   const poses = targetPoses(one, line, time);
@@ -45,13 +48,14 @@ function drawScene(chosen, width, height) {
   drawBase(line.layout, now, screen, overlapping);
   now.arms.forEach((arm, i) => drawArm(line.layout.arms[i], arm, armColour(i), screen, scale, overlapping));
   held.forEach((hold) => drawAttachment(hold, screen(now.arms[hold.arm].end_effector), scale));
-  const labels = [];
-  line.impacts.forEach((impact) => drawImpact(impact, screen, width, labels));
-  const moving = on("velocities") ? drawVelocities(chosen, now, poses, screen) : null;
+  const notes = new Notes(width, height);
+  line.impacts.forEach((impact) => drawImpact(impact, screen, notes));
+  const moving = on("velocities") ? drawVelocities(chosen, now, poses, screen, notes) : null;
   const torques = on("forces") ? drawTorques(chosen, now, screen, scale) : null;
-  poses.forEach((pose, i) => nameTarget(bodyOf(one, i), pose, now, screen, scale, width, height, targetColour(i), labels));
+  poses.forEach((pose, i) => nameTarget(bodyOf(one, i), pose, now, screen, scale, width, height, targetColour(i), notes));
+  const texts = notes.write();
   const arrows = line.impacts.filter(isFresh).flatMap((impact) => impact.contacts);
-  return { targets: poses, arms: now.arms, overlapping: [...overlapping], arrows, moving, torques };
+  return { targets: poses, arms: now.arms, overlapping: [...overlapping], arrows, moving, torques, texts, lines: notes.arrows };
 }
 
 function traces(line, screen) {
@@ -136,20 +140,17 @@ function drawTarget(target, pose, screen, scale, overlapping, paint) {
 }
 
 /** Next to the target; at the edge for one outside, with its distance from the base. */
-function nameTarget(target, pose, now, screen, scale, width, height, paint, labels) {
+function nameTarget(target, pose, now, screen, scale, width, height, paint, notes) {
   const [x, y] = screen(pose.point), size = target.radius * scale, edge = 16;
   if (x > -size && x < width + size && y > -size && y < height + size) {
-    const left = textStart(target.name, x + 6, width);
-    label(target.name, below(labels, [left, y - 6], pen.measureText(target.name).width), theme.ink);
+    notes.text(target.name, theme.ink, (wide) => [[x + 6, y - 6], [x - 6 - wide, y - 6], [x + 6, y + 16]]);
     return;
   }
   const at = [Math.min(Math.max(x, edge), width - edge), Math.min(Math.max(y, edge), height - edge)];
   arrowHead(at, Math.atan2(y - at[1], x - at[0]), paint);
   const away = Math.hypot(pose.point[0] - now.base[0], pose.point[1] - now.base[1]);
-  pen.font = TEXT;
-  const text = `${target.name}, ${away.toFixed(1)} m away`, long = pen.measureText(text).width;
-  const left = at[0] > width / 2 ? at[0] - 12 - long : at[0] + 12;
-  label(text, [textStart(text, left, width, edge), at[1] + (at[1] < height / 2 ? 14 : -6)], theme.ink);
+  const low = at[1] + (at[1] < height / 2 ? 14 : -6);
+  notes.text(`${target.name}, ${away.toFixed(1)} m away`, theme.ink, (wide) => [[at[0] > width / 2 ? at[0] - 12 - wide : at[0] + 12, low]]);
 }
 
 const SHOWN_FOR = 4;
@@ -161,21 +162,38 @@ function impulseScale() {
   return Math.min(80 / most((one) => force(one.impulse)), element("ellipse")?.checked ? 110 / most((one) => ellipse(one)[0]) : Infinity);
 }
 
+/** The way of an impulse's arrow, pixels, y downwards; at least 14 long. */
+function wayOf({ impulse }, scale) {
+  const f = force(impulse), [, fx, fy] = impulse;
+  return [fx, -fy].map((part) => part / f * Math.max(scale * f, 14));
+}
+
+/** By how many pixels the arrows of impulses go beyond a box at a scale: on the left, below, on the right, above. */
+function beyondBox([left, low, right, high], scale) {
+  const contacts = shownCases().flatMap((index) => state.lines[index].impacts.flatMap((impact) => impact.contacts));
+  const size = impulseScale(), beyond = [0, 0, 0, 0];
+  for (const contact of contacts.filter(({ impulse }) => force(impulse) >= 1e-9)) {
+    const [wx, wy] = wayOf(contact, size), [x, y] = contact.end_effector;
+    [scale * (left - x) - wx, scale * (low - y) + wy, scale * (x - right) + wx, scale * (y - high) - wy]
+      .forEach((over, side) => { beyond[side] = Math.max(beyond[side], over + 4); });
+  }
+  return beyond;
+}
+
 /** Semi-axes of the impulse ellipse at the closing speed of a contact, N s. */
 const ellipse = ({ impulse_ellipse: { semi_axes }, relative_twist }) => semi_axes.map((axis) => axis * force(relative_twist));
 
 /** For four seconds after an impact: the impulse on the robot at each contact, and the impulse ellipse. */
-function drawImpact(impact, screen, width, labels) {
+function drawImpact(impact, screen, notes) {
   if (!isFresh(impact)) return;
   const scale = impulseScale();
   pen.globalAlpha = Math.min(1, impact.time + SHOWN_FOR - state.time);
   for (const contact of impact.contacts) {
-    const from = screen(contact.end_effector), f = force(contact.impulse), [, fx, fy] = contact.impulse;
+    const from = screen(contact.end_effector), f = force(contact.impulse);
     // rounding error
     if (f < 1e-9) {
       circle(from, 9, null, theme.impulse);
-      pen.font = TEXT;
-      label("no impulse", below(labels, plus(from, [12, 4]), pen.measureText("no impulse").width), theme.impulse);
+      notes.atTip("no impulse", theme.impulse, from, [1, 0]);
       continue;
     }
     if (element("ellipse")?.checked) {
@@ -186,18 +204,14 @@ function drawImpact(impact, screen, width, labels) {
       pen.fill();
       pen.stroke();
     }
-    // at least 14 pixels long
-    const way = [fx, -fy].map((part) => part / f * Math.max(scale * f, 14)), to = plus(from, way);
+    const way = wayOf(contact, scale), to = plus(from, way);
     pen.strokeStyle = theme.impulse; pen.lineWidth = 3;
     stroke([from, to]);
     const angle = Math.atan2(way[1], way[0]);
     arrowHead(to, angle, theme.impulse);
+    notes.arrow(from, to);
     const mean = element("forces").checked && contact.mean_force ? `, ${force(contact.mean_force).toPrecision(3)} N` : "";
-    const text = `${f.toPrecision(3)} N s${mean}`;
-    pen.font = TEXT;
-    const left = way[0] < 0 ? to[0] - 10 - pen.measureText(text).width : to[0] + 10, x = textStart(text, left, width);
-    // above or below the tip, where there is no room beside it
-    label(text, below(labels, [x, to[1] + (x === left ? 4 : way[1] < 0 ? -8 : 18)], pen.measureText(text).width), theme.impulse);
+    notes.atTip(`${f.toPrecision(3)} N s${mean}`, theme.impulse, to, way);
   }
   pen.globalAlpha = 1;
 }
