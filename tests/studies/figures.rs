@@ -419,6 +419,26 @@ mod drawn {
         }
     }
 
+    /// What is at the ends of an axis of time, a step of a curve or a symbol, is neither on its frame nor cut by it.
+    #[test]
+    fn axes_of_time_have_a_margin() {
+        // points: of a symbol the half width, of the narrowest frame the side
+        let (symbol, frame) = (4.5, 130.0);
+        let scenario = scenario("elastic_rebound");
+        let mut panels = 0;
+        for figure in figures(&scenario, &run(&scenario)) {
+            for panel in figure.panels.iter().filter(|panel| panel.x.label.starts_with("Time")) {
+                let AxisRange::Fixed(low, high) = panel.x.range else { panic!("{}: no frame", figure.name) };
+                for (time, _) in panel.series.iter().flat_map(|series| &series.points) {
+                    let room = (time - low).min(high - time) / (high - low) * frame;
+                    assert!(room > symbol, "{}: {time} s is {room} points from the frame", figure.name);
+                }
+                panels += 1;
+            }
+        }
+        assert!(panels > 30, "{panels}");
+    }
+
     /// The points of a panel's series of this label, one after the other.
     fn points(panel: &Panel, label: &str) -> Vec<(f64, f64)> {
         let of = panel.series.iter().filter(|series| series.label.as_deref() == Some(label));
@@ -464,34 +484,67 @@ mod drawn {
         assert_eq!(shown, 5, "impacts of three cases");
     }
 
-    /// Twelve in a figure, and then another one: of all impacts there are pictures, in their order and of one scale.
+    /// Of many impacts the first, the last, and the largest between are pictured, in their order and of one scale, and the figure
+    /// says how many are not.
     #[test]
-    fn all_impacts_of_a_case_are_shown() {
+    fn the_impacts_of_a_case_that_tell_most_are_shown() {
         let scenario = scenario("elastic_rebound");
         let mut study = run(&scenario);
         let captured = study.cases[0].capture.as_mut().expect("a contact");
         let again = captured.later_impacts[0].clone();
         captured.later_impacts = vec![again; 29];
+        // of 30 in all: the second and the last are the smallest, the rest alike but for three
+        let scaled = |impact: &mut planar_capture::capture::impact::ImpactSolution, factor: f64| {
+            impact.contacts.iter_mut().for_each(|result| result.impulse = result.impulse.map(|part| part * factor));
+        };
+        for (place, factor) in [(2, 0.5), (30, 0.5), (21, 5.0), (9, 3.0), (12, 4.0)] {
+            scaled(&mut captured.later_impacts[place - 2].impact, factor);
+        }
         let all = figures(&scenario, &study);
         let of = |name: &str| all.iter().find(|figure| figure.name == name).unwrap_or_else(|| panic!("no {name}"));
-        let pages = ["", "+2", "+3"].map(|page| of(&format!("impact_configuration_elastic{page}")));
-        assert_eq!(pages.map(|page| (page.panels.len(), page.columns)), [(12, 3), (12, 3), (6, 3)]);
-        let panels: Vec<_> = pages.iter().flat_map(|page| &page.panels).collect();
-        for (i, panel) in panels.iter().enumerate() {
+        let many = of("impact_configuration_elastic");
+        assert_eq!(many.title.as_deref(), Some("6 of 30 impacts: first, last, largest; 24 left out"));
+        assert_eq!((many.panels.len(), many.columns), (6, 2));
+        let panels = &many.panels;
+        for (number, panel) in [1, 3, 9, 12, 21, 30].iter().zip(panels) {
             let title = panel.title.as_deref().unwrap_or_default();
-            assert!(title.starts_with(&format!("Impact {} of 30: ", i + 1)), "{title}");
+            assert!(title.starts_with(&format!("Impact {number}: ")), "{title}");
             let side = |panel: &Panel| match panel.x.range {
                 AxisRange::Fixed(low, high) => high - low,
                 _ => panic!("a frame"),
             };
-            assert!((side(panel) - side(panels[0])).abs() < 1e-9 && side(panel) < 4.0, "a close-up of one scale");
+            assert!((side(panel) - side(&panels[0])).abs() < 1e-9 && side(panel) < 4.0, "a close-up of one scale");
         }
         let twice = of("impact_configuration_half");
-        assert_eq!(twice.columns, 2, "few of them are larger");
-        assert!(!all.iter().any(|figure| figure.name == "impact_configuration_half+2"));
+        assert_eq!((twice.columns, &twice.title), (2, &None), "all of them");
         for width in [Width::Page, Width::Double, Width::Single] {
-            assert_labelled(pages[0], &draw::svg(pages[0], width));
+            let svg = draw::svg(many, width);
+            assert_labelled(many, &svg);
+            assert!(svg.contains("24 left out"), "{width:?}");
         }
+    }
+
+    /// A close-up shows all of an impulse, that of one which points away from the arm and beyond a small target, too.
+    #[test]
+    fn impulses_are_whole_in_close_ups() {
+        let mut scenario = scenario("elastic_rebound");
+        let mut study = run(&scenario);
+        scenario.targets.iter_mut().for_each(|target| target.outline = Outline::disc(0.05));
+        let captured = study.cases[0].capture.as_mut().expect("a contact");
+        let impacts = captured.later_impacts.iter_mut().map(|later| &mut later.impact).chain([&mut captured.impact]);
+        for result in impacts.flat_map(|impact| &mut impact.contacts) {
+            result.impulse = result.impulse.map(|part| -part);
+        }
+        let all = figures(&scenario, &study);
+        let figure = all.iter().find(|figure| figure.name == "impact_configuration_elastic").expect("the figure");
+        for panel in &figure.panels {
+            let arrow = points(panel, "impulse on the robot (own scale)");
+            let apart = |a: &(f64, f64)| arrow.iter().map(|b| (a.0 - b.0).hypot(a.1 - b.1)).fold(0.0, f64::max);
+            let length = arrow.iter().map(apart).fold(0.0, f64::max);
+            // six tenths of the last link
+            assert!((length - 0.6).abs() < 1e-9, "{length} m");
+        }
+        assert!(figure.panels.len() > 1);
     }
 
     /// Outlines that the layout gives are drawn, each in its arm's colour; a target is in no red, whatever the number of arms.

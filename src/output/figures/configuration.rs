@@ -18,11 +18,8 @@ use crate::simulate::system::Body;
 /// Number of snapshots of a post-impact motion.
 const SNAPSHOTS: usize = 6;
 
-/// Largest number of impacts of one case in one figure: a page of three columns. More of them have further figures.
-const PAGE: usize = 12;
-
-/// Up to so many of them have larger pictures, in two columns.
-const LARGE: usize = 6;
+/// Most impacts of one case that are pictured: of many bounces most pictures are nearly equal.
+const MOST: usize = 6;
 
 /// Length of the arrow of the largest impulse over the length of the longest arm.
 const ARROW: f64 = 0.3;
@@ -43,7 +40,7 @@ pub(super) fn figures(scenario: &Scenario, study: &Study) -> Vec<Figure> {
         });
         let series = at_start.into_iter().chain(targets).collect();
         let mut figures = vec![single("initial_configuration", series)];
-        figures.extend(study.cases.iter().flat_map(|case| impacts_of_case(scenario, study, case)));
+        figures.extend(study.cases.iter().map(|case| impacts_of_case(scenario, study, case)));
         return figures;
     }
     let expected = || expected_targets(scenario, "expected targets");
@@ -57,8 +54,9 @@ pub(super) fn figures(scenario: &Scenario, study: &Study) -> Vec<Figure> {
 }
 
 /// The impacts of a case that were found by detection, several as close-ups; or the end of an approach without contact.
-fn impacts_of_case(scenario: &Scenario, study: &Study, case: &CaseResult) -> Vec<Figure> {
+fn impacts_of_case(scenario: &Scenario, study: &Study, case: &CaseResult) -> Figure {
     let events = impacts(study, case);
+    let mut title = None;
     let panels = if events.is_empty() {
         let approach = case.approach(study);
         let title = format!("No contact by {} s", approach.duration);
@@ -67,20 +65,35 @@ fn impacts_of_case(scenario: &Scenario, study: &Study, case: &CaseResult) -> Vec
         let times: Vec<_> = events.iter().map(|event| event.time).collect();
         let (digits, count) = (time_digits(&times), events.len());
         let of = |(i, event): (usize, &ImpactEvent<'_>)| {
-            let which = if count > LARGE { format!("Impact {} of {count}:", i + 1) } else { "Impact at".to_owned() };
+            let which = if count > MOST { format!("Impact {}:", i + 1) } else { "Impact at".to_owned() };
             at_impact(scenario, event, &format!("{which} {:.digits$} s", event.time), count > 1)
         };
-        close_ups(events.iter().enumerate().map(of).collect())
+        let shown = telling(&events.iter().map(largest_impulse).collect::<Vec<_>>());
+        if shown.len() < count {
+            let (shown, left) = (shown.len(), count - shown.len());
+            title = Some(format!("{shown} of {count} impacts: first, last, largest; {left} left out"));
+        }
+        close_ups(shown.into_iter().map(|i| of((i, &events[i]))).collect())
     };
-    let columns = if panels.len() > LARGE { 3 } else { 2 };
-    let pages = panels.chunks(PAGE).enumerate();
-    pages
-        .map(|(page, panels)| {
-            // no name of a case has a plus sign
-            let number = if page > 0 { format!("+{}", page + 1) } else { String::new() };
-            Figure { name: format!("impact_configuration_{}{number}", case.name), columns, panels: panels.to_vec() }
-        })
-        .collect()
+    Figure { name: format!("impact_configuration_{}", case.name), title, columns: 2, panels }
+}
+
+/// The places of the impacts that are pictured, of the largest impulses of all: the first, the last, and the largest between.
+fn telling(impulses: &[f64]) -> Vec<usize> {
+    let last = impulses.len() - 1;
+    let mut between: Vec<_> = (1..last.max(1)).collect();
+    between.sort_by(|a, b| impulses[*b].total_cmp(&impulses[*a]));
+    between.truncate(MOST - 2);
+    let mut shown = [vec![0, last], between].concat();
+    shown.sort_unstable();
+    shown.dedup();
+    shown
+}
+
+/// Of the contacts of an impact, N s.
+fn largest_impulse(event: &ImpactEvent<'_>) -> f64 {
+    let contacts = event.solution.contacts.iter();
+    contacts.map(|result| libm::hypot(result.impulse[1], result.impulse[2])).fold(0.0, f64::max)
 }
 
 /// Robot and targets where a contact is detected, or is not.
@@ -95,7 +108,7 @@ fn detected(scenario: &Scenario, title: String, now: &Sample, bodies: &[Body], c
 /// be a small part of the one before.
 fn at_impact(scenario: &Scenario, event: &ImpactEvent<'_>, title: &str, is_one_of_several: bool) -> Snapshot {
     let results = &event.solution.contacts;
-    let largest = results.iter().map(|result| libm::hypot(result.impulse[1], result.impulse[2])).fold(0.0, f64::max);
+    let largest = largest_impulse(event);
     let up_to = if results.len() > 1 { "up to " } else { "" };
     let contacts: Vec<_> = results.iter().map(|result| result.contact).collect();
     let title = format!("{title}, {up_to}{} N s", significant(largest));
@@ -112,9 +125,9 @@ fn at_impact(scenario: &Scenario, event: &ImpactEvent<'_>, title: &str, is_one_o
         let [yaw, x, y] = event.before.end_effector_poses[result.contact.arm];
         let [_, fx, fy] = result.impulse.map(|part| part * length / largest);
         snapshot.series.extend(arrow(label, [x, y], [fx, fy]));
-        // the last link, and the target that it meets
+        // the arrow, the last link, and the target that it meets
         let back = last_link(result.contact.arm);
-        snapshot.focus.extend([(x, y), (x - back * libm::cos(yaw), y - back * libm::sin(yaw))]);
+        snapshot.focus.extend([(x + fx, y + fy), (x, y), (x - back * libm::cos(yaw), y - back * libm::sin(yaw))]);
         let target = result.contact.target;
         let [_, x, y] = event.targets[target].pose;
         let reach = scenario.targets[target].outline.reach();
@@ -163,7 +176,8 @@ pub(super) fn post_impact_motion(
         snapshot.series.extend(overlapping(scenario, (study, case), time, &sample.state, bodies));
         snapshot
     });
-    Figure { name: format!("post_impact_motion_{}", case.name), columns: 3, panels: panels(snapshots.collect()) }
+    let name = format!("post_impact_motion_{}", case.name);
+    Figure { name, title: None, columns: 3, panels: panels(snapshots.collect()) }
 }
 
 /// The series of each target, with a line to each end effector in contact with it.

@@ -101,6 +101,9 @@ fn scene(figure: &Figure, width: Width, backend: Backend) -> Scene {
         .with_cell_size(size.width(), size.height())
         .with_spacing(SPACING)
         .with_padding(PADDING);
+    if let Some(title) = &figure.title {
+        grid = grid.with_title(title.as_str()).with_title_size(panel::TITLE);
+    }
     if size.shared_legend {
         let entries = panel::legend_entries(figure.panels.iter().flat_map(|panel| &panel.series), backend);
         grid = grid

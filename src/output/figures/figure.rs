@@ -7,6 +7,8 @@ use super::style::{Colour, Dash, Symbol};
 pub struct Figure {
     /// Usable as a file name.
     pub name: String,
+    /// Above all panels.
+    pub title: Option<String>,
     /// Number of panels side by side; with more than one they share a legend.
     pub columns: usize,
     /// Row by row.
@@ -78,6 +80,9 @@ pub enum Mark {
     Bars,
 }
 
+/// Of a time: the half width of a symbol at the side of the narrowest frame.
+const BEYOND: f64 = 0.04;
+
 impl Axis {
     /// An axis over the range of the data, at least `minimum_span` long.
     #[must_use]
@@ -85,10 +90,12 @@ impl Axis {
         Self { label: label.to_owned(), range: AxisRange::Data(minimum_span) }
     }
 
-    /// An axis of time from 0 to `duration`, s.
+    /// An axis of time from 0 to `duration`, s, and a little beyond: what is at its ends is neither hidden by the frame nor
+    /// cut by it.
     #[must_use]
     pub fn time(label: &str, duration: f64) -> Self {
-        Self { label: label.to_owned(), range: AxisRange::Fixed(0.0, duration) }
+        let beyond = BEYOND * duration;
+        Self { label: label.to_owned(), range: AxisRange::Fixed(-beyond, duration + beyond) }
     }
 }
 
@@ -118,6 +125,6 @@ impl Figure {
     /// Panels below each other.
     #[must_use]
     pub fn column(name: &str, panels: Vec<Panel>) -> Self {
-        Self { name: name.to_owned(), columns: 1, panels }
+        Self { name: name.to_owned(), title: None, columns: 1, panels }
     }
 }

@@ -32,6 +32,10 @@ const CHARACTER: f64 = 7.2;
 /// Of a bar's name above the middle of its place, in places; the library puts it somewhat higher.
 const NAME: f64 = -0.07;
 
+/// Height of titles, points, and the least of those that are longer than their panel is wide.
+pub(super) const TITLE: u32 = 13;
+const LEAST_TITLE: u32 = 8;
+
 /// Height of an entry of a legend, points.
 const LEGEND_LINE: f64 = 18.0;
 
@@ -57,6 +61,8 @@ pub(super) struct Size {
     right: f64,
     top: f64,
     bottom: f64,
+    /// Height of the panels' titles.
+    title: u32,
     /// Whether there is one legend for all panels.
     pub(super) shared_legend: bool,
     /// The number of entries that each panel's legend has below it; `None` for legends beside the panels.
@@ -92,8 +98,14 @@ impl Size {
             }
         };
         let legend = legend_below.filter(|entries| *entries > 0).map_or(0.0, |entries| lines_height(entries + 1));
+        // in the middle of its frame, without reaching into the next panel or beyond the page
+        let titles = figure.panels.iter().filter_map(|panel| panel.title.as_ref());
+        let room = frame[0] + 2.0 * (left.min(right) + PADDING);
+        let is_long = |title: u32| f64::from(title) / 12.0 * longest(titles.clone()) > room;
+        let title = (LEAST_TITLE..TITLE).rev().fold(TITLE, |title, less| if is_long(title) { less } else { title });
         Self {
             frame,
+            title,
             left,
             right,
             top: if figure.panels.iter().any(|panel| panel.title.is_some()) { 32.0 } else { 12.0 },
@@ -159,7 +171,7 @@ pub(super) fn layout(panel: &Panel, size: &Size, backend: Backend) -> Layout {
         .with_label_size(13)
         .with_tick_size(12)
         .with_body_size(12)
-        .with_title_size(13)
+        .with_title_size(size.title)
         .with_axis_line_width(1.0)
         .with_grid_line_width(0.5)
         .with_force_margins(size.left, size.right)
