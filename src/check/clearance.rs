@@ -1,6 +1,7 @@
 //! What the planned path shows, the approach without tracking errors, in few steps: overlaps, joints beyond their limits,
-//! torques that no joint has, and why there is none.
+//! torques that no joint has, targets that it leads past, and why there is none.
 
+use super::misses;
 use super::number::short;
 use super::warning;
 use crate::capture::approach::ApproachTracking;
@@ -11,7 +12,7 @@ use crate::capture::{Silent, Study, StudyError, study};
 use crate::diagnostic::Warning;
 use crate::engine::Choice;
 use crate::registry::Robots;
-use crate::scenario::{Actuation, Detection, OnOverlap, Scenario, Tracking};
+use crate::scenario::{Actuation, Case, Detection, OnOverlap, Scenario, Tracking};
 use crate::simulate::limits::LimitViolations;
 use crate::simulate::stepper::Integration;
 use crate::simulate::{Phase, Sample};
@@ -56,13 +57,16 @@ fn overlaps(scenario: &Scenario, robots: Robots<'_>) -> Result<Vec<Warning>, Stu
     planned.clearance.on_overlap = OnOverlap::Report;
     // the approaches of cases differ by the targets' motions, and by which contacts end them
     let mut seen = Vec::new();
-    planned.cases.retain(|case| {
+    let is_new = |case: &Case| {
         let contacts: Vec<bool> = case.kinds.iter().flatten().map(Option::is_some).collect();
         let approach = (case.target_twists.clone(), contacts);
         let is_new = !seen.contains(&approach);
         seen.push(approach);
         is_new
-    });
+    };
+    let is_planned: Vec<bool> = planned.cases.iter().map(is_new).collect();
+    let cases: Vec<usize> = (0..is_planned.len()).filter(|place| is_planned[*place]).collect();
+    planned.cases = cases.iter().map(|place| scenario.cases[*place].clone()).collect();
     // feedback needs the scenario's steps
     if by_end_effectors {
         let steps = ApproachTracking::new(scenario, scenario.approach.duration).steps();
@@ -88,9 +92,10 @@ fn overlaps(scenario: &Scenario, robots: Robots<'_>) -> Result<Vec<Warning>, Stu
     let layout = &scenario.layout;
     let (choice, _) = Choice::fastest(layout, robots);
     let make = || choice.model(layout);
-    // torques are looked at where there are limits of them
+    // torques are looked at where there are limits of them, and where lags are to be told
     let has_torques = !by_end_effectors && scenario.approach.actuation.torque_limits.is_some();
-    let sample = if has_torques { planned.approach.step } else { planned.approach.duration };
+    let has_samples = has_torques || (!by_end_effectors && scenario.contact.detection == Detection::Event);
+    let sample = if has_samples { planned.approach.step } else { planned.approach.duration };
     let result = match study(&planned, &make, sample, &mut Silent) {
         Ok(result) => result,
         Err(StudyError::ClearanceExhausted { what, .. }) => return Ok(vec![unfinished(what.time, &what.to_string())]),
@@ -106,6 +111,8 @@ fn overlaps(scenario: &Scenario, robots: Robots<'_>) -> Result<Vec<Warning>, Stu
     if has_torques {
         warnings.extend(beyond_torques(scenario, &result.approach));
     }
+    let off_path = misses::off_path(scenario, &result, by_end_effectors);
+    warnings.extend(misses::warnings(scenario, &cases, &result, off_path));
     Ok(warnings)
 }
 

@@ -33,6 +33,11 @@ pub(super) fn warnings(scenario: &Scenario) -> Vec<Warning> {
     each.collect()
 }
 
+/// Whether a target is out of reach in a case, of which there is a warning.
+pub(super) fn is_distant(scenario: &Scenario, case: &Case, i: usize) -> bool {
+    distant(scenario, case, i).is_some()
+}
+
 /// Where a target is nearest to the robot in a case, of the arm with the longest reach among those that are to meet it;
 /// `None` where its outline may be within that.
 fn distant(scenario: &Scenario, case: &Case, i: usize) -> Option<Reach> {

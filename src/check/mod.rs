@@ -28,6 +28,7 @@ mod draws;
 mod encounter;
 mod kind;
 mod link;
+mod misses;
 mod names;
 mod number;
 mod outlines;

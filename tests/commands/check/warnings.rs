@@ -3,7 +3,7 @@
 use super::{LAYOUT, SCENARIO, inspect_text};
 use planar_capture::capture::{Silent, StudyError, study};
 use planar_capture::check::{CheckReport, inspect};
-use planar_capture::registry::{SHIPPED, generic};
+use planar_capture::registry::{SHIPPED, generated, generic};
 use planar_capture::scenario::Scenario;
 use planar_proof::file;
 use std::fs;
@@ -416,6 +416,96 @@ fn targets_that_are_never_met_are_named() {
     let away = shown("[5.5, 0.1]", "[0.0, 0.9, 0.0]");
     assert!(away.contains("`target[0].position` is"), "{away}");
     assert!(!shown("[3.0, 0.1]", "[0.0, 0.1, 0.0]").contains("can meet"));
+}
+
+/// An arm that extends to the right while a ball drifts by, and another ball that the other arm is to meet.
+fn passing([x, y]: [f64; 2], velocity: [f64; 2], more: &str) -> String {
+    format!(
+        "name = \"it\"\nlayout = \"dual_arm_3r\"\n[initial]\n\
+         joint_angles = [0.698, -1.571, 1.047, 2.444, 1.571, -1.047]\n[approach]\nduration = 20.0\n\
+         trajectory = \"cycloidal\"\nfinal_joint_angles = [0.2, -0.9, 0.5, 2.9, 0.9, -0.5]\n{more}\n[contact]\n\
+         detection = \"event\"\n[[target]]\nname = \"ball\"\narm = \"arm1\"\nkind = \"bounce\"\nmass = 20.0\n\
+         inertia = 0.7\nradius = 0.3\nposition = [{x}, {y}]\ntwist = [0.0, {}, {}]\n[post_impact]\nduration = 0.1\n\
+         [clearance]\nignore = [[\"base\", \"targets/ball\"], [\"arms/arm2/link1\", \"targets/ball\"], \
+         [\"arms/arm2/link2\", \"targets/ball\"], [\"arms/arm2/link3\", \"targets/ball\"], \
+         [\"arms/arm1/link1\", \"targets/ball\"], [\"arms/arm1/link2\", \"targets/ball\"], \
+         [\"arms/arm1/link3\", \"targets/ball\"]]\n",
+        velocity[0], velocity[1]
+    )
+}
+
+/// What `check` says of a scenario of a shipped robot.
+fn said_of(text: &str) -> String {
+    inspect(text, "it.toml", Path::new(""), SHIPPED).unwrap_or_else(|report| panic!("{report}")).warnings.to_string()
+}
+
+fn is_off_the_way(text: &str) -> bool {
+    said_of(text).contains("not on the way")
+}
+
+/// A target in reach that the planned path leads past is named, with how near they come; where the motion of a run is not known
+/// beforehand, nothing is said.
+#[test]
+fn targets_off_the_planned_path_are_named() {
+    let past = passing([0.5, 2.6], [0.0, 0.0], "");
+    let shown = said_of(&past);
+    for part in [
+        "it.toml:19:",
+        "`target[0].position` is [0.5, 2.6]: `ball` is in reach, but not on the way",
+        "arm1 comes no nearer than 3.198 m, at 0 s",
+        "a run meets nothing then",
+    ] {
+        assert!(shown.contains(part), "no `{part}` in\n{shown}");
+    }
+    assert_eq!(shown.matches("warning: ").count(), 1, "{shown}");
+    assert!(is_off_the_way(&passing([0.5, 2.6], [0.0, 0.0], "tracking = \"exact\"")));
+    // slack gains, torques that are held, and those that there are not
+    for law in ["proportional_gain = 0.01", "derivative_gain = 0.0", "sample_time = 0.1", "torque_limits = 1e-3"] {
+        assert!(!is_off_the_way(&passing([0.5, 2.6], [0.0, 0.0], law)), "{law}");
+    }
+    let moving = past.replace("[approach]", "joint_rates = [0.1, 0.0, 0.0, 0.0, 0.0, 0.0]\n[approach]");
+    assert!(!is_off_the_way(&moving));
+    // of two targets one is met, and what follows is not known
+    let other = past.replacen(
+        "[post_impact]",
+        "[[target]]\nname = \"other\"\narm = \"arm2\"\nkind = \"bounce\"\nmass = 20.0\n\
+        inertia = 0.7\nradius = 0.3\nposition = [-3.6, 0.1]\n[post_impact]",
+        1,
+    );
+    assert!(!is_off_the_way(&other), "{}", said_of(&other));
+    // in one of two cases
+    let cases = past.replacen(
+        "[post_impact]",
+        "[[case]]\nname = \"at_rest\"\n[[case]]\nname = \"comes\"\n\
+        target_twists = { ball = [0.0, 0.16, -0.16] }\n[post_impact]",
+        1,
+    );
+    let shown = said_of(&cases);
+    assert_eq!(shown.matches("not on the way").count(), 1, "{shown}");
+    assert!(shown.contains("`case[0].target_twists`"), "{shown}");
+}
+
+/// Wherever a target is, and however it drifts: where a run meets it, nothing was said.
+#[test]
+fn targets_that_are_met_are_not_said_to_be_off_the_way() {
+    let (mut met, mut said) = (0, 0);
+    for i in 0..24_u8 {
+        let (row, column) = (i / 6, f64::from(i % 6));
+        let position = [2.3 + 0.25 * column, [-1.4, -0.6, -0.3, 1.2][usize::from(row)]];
+        let velocity = [0.02 * (column - 2.0), 0.03 * (1.5 - f64::from(row))];
+        for gain in ["proportional_gain = 49.0", "proportional_gain = 5.0"] {
+            let text = passing(position, velocity, gain);
+            let scenario = Scenario::parse(&text, "it.toml", Path::new(""), SHIPPED).expect("a scenario");
+            let model = generated(&scenario.layout).expect("generated code");
+            // one that begins in the target has no run
+            let Ok(study) = study(&scenario, &|| model.clone_box(), 1.0, &mut Silent) else { continue };
+            let (is_met, is_said) = (study.cases[0].capture.is_some(), is_off_the_way(&text));
+            assert!(!(is_met && is_said), "{position:?} {velocity:?}: met, {:?}", study.cases[0].closest);
+            met += usize::from(is_met);
+            said += usize::from(is_said);
+        }
+    }
+    assert!(met >= 4 && said >= 4, "{met} met, {said} said not to be");
 }
 
 /// Lengths that are all in mm are said once, not with all that follows from them.
