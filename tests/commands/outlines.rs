@@ -51,6 +51,17 @@ fn outlines_in_all_their_forms() {
     }
 }
 
+/// A link of no valid length is refused for that alone, not for what its outline is by default.
+#[test]
+fn defaults_of_an_invalid_length_are_not_asked_for() {
+    for outline in ["{ capsule = 0.1 }", "{ capsule = 0 }", "{ box = [1, 0.1] }", "{ disc = 0.1 }"] {
+        let text = with("{ disc = 1 }", outline).replacen("length = 2.0", "length = -0.5", 1);
+        let Err(report) = Layout::parse(&text, "robot.toml") else { panic!("it was accepted") };
+        let shown = report.to_string();
+        assert!(report.count() == 1 && shown.contains("length` is -0.5"), "`{outline}`: {shown}");
+    }
+}
+
 #[test]
 fn broken_outlines() {
     let cases = [

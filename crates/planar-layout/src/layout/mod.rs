@@ -29,7 +29,7 @@ use std::path::Path;
 use planar_dynamics::manifest::ParameterKind;
 
 use crate::diagnostic::{DocumentKind, Report, Table, Value, every, read_text, report_error};
-use crate::outline::{Outline, outline};
+use crate::outline::{Body, Outline, outline};
 use crate::proportion::{Disproportion, Inertia, disproportion};
 pub use millimetres::Millimetres;
 use resolution::{LEAST_SHARE, Weakest};
@@ -381,7 +381,7 @@ impl Base {
     fn from_table(table: &Table<'_>) -> Option<Self> {
         let mass = table.number("mass");
         let inertia = table.number("inertia");
-        let outline = table.read_or("outline", None, |value| outline(value, None).map(Some));
+        let outline = table.read_or("outline", None, |value| outline(value, Body::Base).map(Some));
         Some(Self { mass: mass?, inertia: inertia?, outline: outline? })
     }
 }
@@ -420,7 +420,7 @@ impl Link {
         let mass = table.number("mass");
         let inertia = table.number("inertia");
         let com = table.get("com").map_or(length.map(|length| [length / 2.0, 0.0]), |value| value.vector());
-        let outline = table.read_or("outline", None, |value| outline(value, length).map(Some));
+        let outline = table.read_or("outline", None, |value| outline(value, Body::Link(length)).map(Some));
         Some(Self { length: length?, mass: mass?, inertia: inertia?, com: com?, outline: outline? })
     }
 }

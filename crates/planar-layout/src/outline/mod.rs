@@ -18,7 +18,7 @@ mod keys;
 mod reader;
 
 pub use keys::FORMAT;
-pub use reader::outline;
+pub use reader::{Body, outline};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// The outline of a rigid body in its own frame: that of a link, or one with the COM as its origin.

@@ -7,12 +7,21 @@ use crate::format::With;
 const EXPECTED: &str = "one of `disc` (a radius in m), `box` (two sides in m), `capsule` (a radius in m, 0 for a segment) \
                         and `polygon` (a list of corners [x, y] in m)";
 
-/// The outline of a base, or of a link of this length (m).
+/// The body that an outline is of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Body {
+    /// A base.
+    Base,
+    /// A link of this length, m; `None` where that is refused, which is said at its own key.
+    Link(Option<f64>),
+}
+
+/// The outline of a body.
 ///
 /// `disc` and `box` take a `center` (default: the base's COM, the middle of the link), `box` an `angle`, `capsule` its
 /// `ends` (default: the joint and the end of the link).
 #[must_use]
-pub fn outline(value: &Value<'_>, length: Option<f64>) -> Option<Outline> {
+pub fn outline(value: &Value<'_>, body: Body) -> Option<Outline> {
     let table = value.table()?;
     let given: Vec<&str> = FORMAT.one_of.iter().copied().filter(|kind| table.get(kind).is_some()).collect();
     // that was said of the misspelling
@@ -32,7 +41,11 @@ pub fn outline(value: &Value<'_>, length: Option<f64>) -> Option<Outline> {
     if !others.is_empty() {
         return None;
     }
-    let center = table.read_or("center", [length.unwrap_or(0.0) / 2.0, 0.0], Value::vector);
+    let middle = match body {
+        Body::Link(Some(length)) => length / 2.0,
+        Body::Link(None) | Body::Base => 0.0,
+    };
+    let center = table.read_or("center", [middle, 0.0], Value::vector);
     match kind {
         "disc" => Some(Outline::Disc { center: center?, radius: table.number("disc")? }),
         "box" => {
@@ -44,7 +57,7 @@ pub fn outline(value: &Value<'_>, length: Option<f64>) -> Option<Outline> {
         }
         "capsule" => {
             let radius = table.number("capsule");
-            let ends = ends(&table, length);
+            let ends = ends(&table, body);
             Some(Outline::Capsule { ends: ends?, radius: radius? })
         }
         _ => {
@@ -55,12 +68,12 @@ pub fn outline(value: &Value<'_>, length: Option<f64>) -> Option<Outline> {
     }
 }
 
-fn ends(table: &Table<'_>, length: Option<f64>) -> Option<[[f64; 2]; 2]> {
+fn ends(table: &Table<'_>, body: Body) -> Option<[[f64; 2]; 2]> {
     const ENDS: &str = "the two ends of the segment, [[x, y], [x, y]] in m";
-    let value = match (table.get("ends"), length) {
+    let value = match (table.get("ends"), body) {
         (Some(value), _) => value,
-        (None, Some(length)) => return Some([[0.0, 0.0], [length, 0.0]]),
-        (None, None) => table.require_as("ends", ENDS)?,
+        (None, Body::Link(length)) => return length.map(|length| [[0.0, 0.0], [length, 0.0]]),
+        (None, Body::Base) => table.require_as("ends", ENDS)?,
     };
     let items = every(value.items(ENDS)?.iter().map(Value::vector))?;
     let ends = <[[f64; 2]; 2]>::try_from(items);
