@@ -102,6 +102,14 @@ fn written_cases(folder: &Path, block: u64, origin: &Origin) -> Result<[u64; 2],
     cases_in(&path, origin)
 }
 
+/// The first and the last case of a file of this sweep, as its metadata say, which alone are read; `None` of another file.
+#[must_use]
+pub fn cases_said(folder: &Path, block: u64, origin: &Origin) -> Option<[u64; 2]> {
+    let path = path(folder, block);
+    regular_file::check(&path).ok()?;
+    cases_in(&path, origin).ok()
+}
+
 /// The SHA-256 of a file.
 fn digest_of(path: &Path) -> io::Result<[u8; 32]> {
     regular_file::check(path)?;

@@ -132,12 +132,18 @@ impl Plan {
     }
 }
 
-/// Cases whose files are not in a folder, whichever shard has them.
+/// Cases that are not in the files of a folder, whichever shard has them: those of files that are not there or not of this
+/// sweep, and those that a file of a sweep with fewer cases has not. Only what files say of themselves is read, not their rows.
 #[must_use]
 pub fn missing(campaign: &Campaign, folder: &Path) -> u64 {
     let sweep = &campaign.sweep;
-    let absent = (0..sweep.blocks()).filter(|block| !block_file::path(folder, *block).exists());
-    absent.map(|block| sweep.count_of(block)).sum()
+    let origin = origin(campaign);
+    let absent = |block| {
+        let cases = sweep.cases_of(block);
+        let there = block_file::cases_said(folder, block, &origin).map_or(0..0, |[first, last]| first..last + 1);
+        cases.end - cases.start - there.end.min(cases.end).saturating_sub(there.start.max(cases.start))
+    };
+    (0..sweep.blocks()).map(absent).sum()
 }
 
 /// The rows of files that are not complete.

@@ -858,6 +858,26 @@ fn a_part_of_a_sweep_is_called_one() {
     assert!(!out.contains("not there") && !out.contains("part") && page().contains("<p>12 cases: 12 done."), "{out}");
 }
 
+/// Of the last file of a sweep that had fewer cases, those that it has not are not there, whoever is to compute them; and nor
+/// are those of a file of another sweep.
+#[test]
+fn cases_that_a_shorter_sweep_has_not_are_not_there() {
+    let place = Workplace::sampled("random");
+    let sweep = |cases: &str| SWEEP.replace("SAMPLING", "random").replace("cases = 12", cases);
+    place.write(&sweep("cases = 6"));
+    assert_eq!(place.computed("out", &[]).len(), 2);
+    place.write(&sweep("cases = 12"));
+    let (code, out, err) = place.sweep("out", &["--shard", "1/3", "--report", "-q"]);
+    assert_eq!(code, 0, "{err}");
+    assert!(out.contains("0 of 12 cases computed: 4 were there before, 6 are not there yet\n"), "{out}");
+    assert!(out.contains("Of the report: 6 of the sweep's cases are not here"), "{out}");
+    assert_eq!(place.computed("out", &[]), Workplace::sampled("random").computed("whole", &[]));
+    let other = place.path("out/cases").join(FILES[1]);
+    fs::write(other, "of something else").expect("written");
+    let (code, out, err) = place.sweep("out", &["--shard", "1/3", "-q"]);
+    assert!(code == 0 && out.contains("4 were there before, 4 are not there yet\n"), "{out}{err}");
+}
+
 /// A file of a shard has the cases of its block, by the numbers that they have in the whole sweep.
 #[test]
 fn cases_of_a_shard_have_the_numbers_of_the_whole_sweep() {
