@@ -59,16 +59,21 @@ fn a_phase_and_the_next() {
         event: Some((1, 0.75)),
         ..phase(1.0)
     };
-    let mut first_with_work = first.clone();
-    first_with_work.samples.last_mut().expect("samples").work = work;
-    let both = first_with_work.then(next.clone());
+    let with_work = |phase: &Phase, work| {
+        let mut phase = phase.clone();
+        phase.samples.last_mut().expect("samples").work = work;
+        phase
+    };
+    let more = ActuatorWork { joint_work: 0.25, base_work: -0.5, base_impulse: 0.75 };
+    let sum = ActuatorWork { joint_work: 1.25, base_work: 1.5, base_impulse: 3.75 };
+    let both = with_work(&first, work).then(with_work(&next, more));
     assert_eq!(both.saturation, Saturation { joints: vec![0.75, 4.0], base: 1.75 });
     assert_eq!((both.duration, both.event, both.singularity_margin), (3.0, Some((1, 2.75)), Some(0.25)));
     assert_eq!(both.path_error.to_bits(), f64::to_bits(2e-9), "that of the later one has that of the earlier one");
     let times: Vec<f64> = both.samples.iter().map(|sample| sample.time).collect();
     let expected = first.samples.iter().map(|s| s.time).chain(next.samples.iter().map(|s| 2.0 + s.time));
     assert_eq!(times, expected.collect::<Vec<_>>());
-    assert_eq!((both.end().work, &both.end().state), (work, &next.end().state));
+    assert_eq!((both.end().work, &both.end().state), (sum, &next.end().state));
     assert_eq!(next.then(first).event, None);
 }
 
@@ -187,16 +192,23 @@ fn reduced_coordinates_are_of_a_robot_alone() {
 #[test]
 fn saturation_up_to_an_event() {
     let (model, state) = robot();
-    let law = ProportionalDerivative {
-        trajectory: ConstantSetpoint { angles: &[9.0; 2] },
-        proportional_gain: &[10.0; 2],
-        derivative_gain: &[0.0; 2],
-    };
-    let mut limited = TorqueLimiter { law, torque_limits: &[1e-3; 2], saturated: &mut [false; 2] };
-    let timing = Timing { duration: 2.0, step: 0.25, sample: 0.25, ..Timing::default() };
-    let system = System::alone(&*model);
-    let ended = simulate(&system, &mut limited, &state, &timing, &mut EndTime(0.9), &mut || ()).expect("a phase");
-    assert_close("saturated", &ended.saturation.joints, &[0.9; 2], 1e-12);
+    // by torques of either sign, held ones too
+    for angles in [[9.0, -9.0], [-9.0, 9.0]] {
+        let law = ProportionalDerivative {
+            trajectory: ConstantSetpoint { angles: &angles },
+            proportional_gain: &[10.0; 2],
+            derivative_gain: &[0.0; 2],
+        };
+        let mut limited = TorqueLimiter { law, torque_limits: &[1e-3; 2], saturated: &mut [false; 2] };
+        let timing = Timing { duration: 2.0, step: 0.25, sample: 0.25, ..Timing::default() };
+        let system = System::alone(&*model);
+        let ended = simulate(&system, &mut limited, &state, &timing, &mut EndTime(0.9), &mut || ()).expect("a phase");
+        assert_close("saturated", &ended.saturation.joints, &[0.9; 2], 1e-12);
+        let mut held = [0.0; 2];
+        let mut sampled = SampledControl::new(&mut limited, 1, &mut held);
+        let ended = simulate(&system, &mut sampled, &state, &timing, &mut EndTime(0.9), &mut || ()).expect("a phase");
+        assert_close("saturated, held", &ended.saturation.joints, &[0.9; 2], 1e-12);
+    }
 }
 
 /// Joints that are at their limits for a part of the time are so for as long whatever is sampled.

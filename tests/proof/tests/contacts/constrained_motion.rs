@@ -243,7 +243,8 @@ fn constraint_errors_are_the_gap_and_its_rate() {
     let half = (closed.len() - 3) / 2;
     let [open, opening] = system.constraint_errors(&closed).expect("errors");
     assert!(open.max(opening) <= tolerance::CONSTRAINT_ERROR, "{open:e} {opening:e}");
-    for (dx, dy) in [(0.02, -0.3), (-0.4, 0.1)] {
+    // the largest coordinate with either sign
+    for (dx, dy) in [(0.02, -0.3), (-0.4, 0.1), (-0.02, 0.3), (0.4, -0.1)] {
         let (mut x, largest) = (closed.clone(), f64::max(dx, -dx).max(f64::max(dy, -dy)));
         x[half + body + 1] += 3.0 * dx;
         x[half + body + 2] += 3.0 * dy;
