@@ -54,6 +54,7 @@ use crate::capture::sequence::CaptureSequence;
 use crate::capture::terminal_error::TerminalError;
 use crate::laws::{Laws, NamedLaws, OwnLaws, RegisteredLaw};
 use crate::owned::CloneModel;
+use crate::plain_text::count;
 use crate::scalar::Real;
 use crate::scenario::{Detection, FinalRates, Scenario, Tracking};
 pub use crate::simulate::conservation::CENTER_OF_MASS_BOUND;
@@ -473,7 +474,7 @@ impl Study {
             found.extend(named.map(|overlap| format!("{}: {}", case.name, overlap.sentence())));
             let more = overlaps.count();
             if more > 0 {
-                found.push(format!("{}: {more} more overlaps, all in the summary", case.name));
+                found.push(format!("{}: {}, all in the summary", case.name, count(more, "more overlap")));
             }
             let depths = case.closest.iter().map(|pair| -pair.distance);
             let depths = depths.chain(case.capture.iter().map(|captured| captured.penetration));

@@ -7,7 +7,7 @@ use planar_capture::capture::impact::ImpactResult;
 use planar_capture::capture::{CaptureResult, LaterImpact, Study};
 use planar_capture::layout::Layout;
 use planar_capture::registry;
-use planar_capture::scenario::{PostCaptureControl, Scenario, Tracking};
+use planar_capture::scenario::{OnOverlap, PostCaptureControl, Scenario, Tracking};
 use planar_capture::simulate::Phase;
 use planar_capture::simulate::conservation::{AccumulatedInput, ConservationAudit, ConservationErrors};
 use planar_capture::simulate::limits::{JointLimits, LimitViolation, LimitViolations};
@@ -360,7 +360,9 @@ fn the_exit_code_says_that_a_limit_was_exceeded() {
     let (code, out, err) = run("[limits]\njoint_rates = [2, 0.1, 2, 2, 2, 2]");
     assert_eq!(code, 1);
     assert!(
-        err.contains("audit: approach: joint 2 of arm1 turns with") && err.contains("beyond its limit of"),
+        err.contains("audit: approach: joint 2 of arm1 turns with")
+            && err.contains(" rad/s at ")
+            && err.contains(" s, beyond its limit of -0.1 rad/s"),
         "{err}"
     );
     assert!(out.contains("joint 2 of arm1 turns with"), "{out}");
@@ -368,6 +370,27 @@ fn the_exit_code_says_that_a_limit_was_exceeded() {
     assert_eq!(code, 2);
     assert!(err.contains("`initial.joint_angles[1]` is -1.571: outside the limits of joint 2 of arm1, -1.5"), "{err}");
     assert!(err.contains("(`limits.joint_angles`)") && err.contains("it.toml:12:"), "{err}");
+}
+
+/// Ten overlaps of a case are named; the others are counted, be it one.
+#[test]
+fn overlaps_beyond_the_tenth_are_counted() {
+    let mut scenario = scenario("raina_shah_2017");
+    scenario.cases.truncate(1);
+    scenario.clearance.on_overlap = OnOverlap::Fail;
+    let mut study = run(&scenario);
+    let overlap = study.cases[0].clearance.failures().next().expect("an overlap").clone();
+    for (number, expected) in [
+        (10, None),
+        (11, Some("case1: 1 more overlap, all in the summary")),
+        (13, Some("case1: 3 more overlaps, all in the summary")),
+    ] {
+        study.cases[0].clearance.overlaps = vec![overlap.clone(); number];
+        let failures = study.audit_failures();
+        let more: Vec<_> = failures.iter().filter(|failure| failure.contains(" more ")).map(String::as_str).collect();
+        assert_eq!(more, expected.into_iter().collect::<Vec<_>>());
+        assert_eq!(failures.iter().filter(|failure| failure.contains(&overlap.sentence())).count(), 10);
+    }
 }
 
 /// Limits do not change the motion.

@@ -551,6 +551,12 @@ fn an_overlap_in_words_says_when_however_short_it_is() {
     assert_eq!(words([1.0, 1.000_002], 3e-7), "`base` and `a` overlap at 1.000 s for 2.0e-6 s by up to 3.00e-7 m");
     assert_eq!(words([1.0, 1.002], 0.25), "`base` and `a` overlap from 1.000 s to 1.002 s by up to 2.50e-1 m");
     assert_eq!(words([1.0, 1.0], 0.0), "`base` and `a` begin to overlap at 1.000 s");
+    for (span, expected) in
+        [([1.0, 1.0], "at 1.000 s (default outlines)"), ([1.0, 2.0], "5.00e-1 m (default outlines)")]
+    {
+        let overlap = Overlap { bodies: ["base".into(), "a".into()], span, depth: 0.5, is_default: true };
+        assert!(overlap.sentence().ends_with(expected), "{}", overlap.sentence());
+    }
 }
 
 /// Overlaps of the parts of two bodies are one while they last together: from the first to the last end, as deep as the
