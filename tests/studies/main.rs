@@ -26,6 +26,7 @@ mod resolved_motion_rate;
 mod serialized;
 mod step_advice;
 mod study;
+mod table;
 
 use planar_capture::capture::{Silent, Study};
 use planar_capture::output::html_report::write_report;

@@ -405,6 +405,7 @@ fn the_summary_tells_overlaps_and_planned_contacts_apart() {
             let [from, to, depth] = ["from", "to", "depth"].map(|key| number(&value[key]));
             assert!(from < to && depth > 0.0, "{value}");
             assert_eq!(([from, to], depth), (overlap.span, overlap.depth));
+            assert_eq!(value["default_outline"].as_bool(), Some(overlap.is_default), "{value}");
             overlaps += 1;
         }
         let first = clearance.overlaps.first().map_or(Value::Null, |overlap| json!(overlap.span[0]));
@@ -412,6 +413,34 @@ fn the_summary_tells_overlaps_and_planned_contacts_apart() {
     }
     let differ = |case: &CaseResult| case.clearance.least != case.clearance.besides_contacts;
     assert!(study.cases.iter().any(differ) && overlaps > 0, "{overlaps} overlaps");
+}
+
+/// What few studies have stands in the summary as it is: later impacts since the first one, penetrations however small, and every part of
+/// a missed goal.
+#[test]
+fn the_summary_has_what_few_studies_have() {
+    let scenario = scenario("elastic_rebound");
+    let mut study = run(&scenario);
+    let capture = study.cases[0].capture.as_mut().expect("a capture");
+    capture.penetration = 1e-9;
+    let times: Vec<f64> = capture.later_impacts.iter().map(|later| later.time).collect();
+    let value = summary(&scenario, &study);
+    let after = &value["cases"][0]["post_impact"];
+    assert_eq!(after["penetration"].as_f64(), Some(1e-9));
+    let found = after["impacts"].as_array().expect("later impacts").iter().map(|later| number(&later["time"]));
+    assert_eq!(found.collect::<Vec<_>>(), times);
+    assert!(!times.is_empty());
+
+    let scenario = crate::scenario("resolved_motion_rate");
+    let study = run(&scenario);
+    let value = summary(&scenario, &study);
+    let missed = value["cases"][0]["approach"]["missed"].as_array().expect("a list").clone();
+    assert_eq!(missed.len(), study.terminal_errors.len());
+    for (found, error) in missed.iter().zip(&study.terminal_errors) {
+        let parts = &error.as_ref().expect("a goal").parts;
+        assert_eq!(&numbers(found), parts);
+        assert!(parts.len() == 2 && (parts[0] - parts[1]).abs() > 1e-12, "{parts:?}");
+    }
 }
 
 /// The columns of the report are those of the samples: joints, end effectors and momentum.
