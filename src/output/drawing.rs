@@ -194,6 +194,41 @@ mod tests {
         );
     }
 
+    /// The first link's centre of mass is a quarter of its length from the joint, or beside the link.
+    #[test]
+    fn centres_of_mass_are_where_they_are() {
+        let circle = |svg: &str, class: &str, at: usize| -> [f64; 2] {
+            let line = svg.lines().filter(|line| line.contains(&format!("class=\"{class}\""))).nth(at).expect("one");
+            let number = |name: &str| {
+                let (_, rest) = line.split_once(&format!("{name}=\"")).expect("a place");
+                rest.split('"').next().and_then(|text| text.parse().ok()).expect("a number")
+            };
+            [number("cx"), number("cy")]
+        };
+        // its first stroke is level, through its middle
+        let mark = |svg: &str, at: usize| -> [f64; 2] {
+            let line = svg.lines().filter(|line| line.contains("class=\"com\"")).nth(at).expect("one");
+            let (_, path) = line.split_once(" d=\"M").expect("a path");
+            let (left, rest) = path.split_once(' ').expect("a place");
+            let (y, rest) = rest.split_once('h').expect("a stroke");
+            let (length, _) = rest.split_once('M').expect("its end");
+            let [left, y, length] = [left, y, length].map(|text| text.parse::<f64>().expect("a number"));
+            [left + 0.5 * length, y]
+        };
+        for com in [[0.25, 0.0], [0.4, -0.3]] {
+            let svg = shown(&ROBOT.replace("com = [0.25, 0.0]", &format!("com = {com:?}")), &[0.0, 0.0, 0.0]);
+            // base, then the links
+            let ([x, y], [elbow, _], [at_x, at_y]) =
+                (circle(&svg, "joint", 0), circle(&svg, "joint", 1), mark(&svg, 1));
+            let scale = elbow - x;
+            // a tenth of a pixel is written
+            assert!(
+                (at_x - x - scale * com[0]).abs() < 0.3 && (y - at_y - scale * com[1]).abs() < 0.3,
+                "{com:?}: {svg}"
+            );
+        }
+    }
+
     #[test]
     fn everything_has_its_symbol_and_its_name() {
         let svg = shown(ROBOT, &[0.0, -0.5, 0.0]);

@@ -151,12 +151,28 @@ impl Shape {
 
 #[cfg(test)]
 mod tests {
-    use super::{Shape, visuals};
+    use super::{PALETTE, Shape, robot_visuals, visuals};
+    use crate::layout::Layout;
     use crate::outline::Outline;
     use crate::registry::SHIPPED;
     use crate::scenario::Scenario;
 
     /// A uniform disc of mass m and radius r has the inertia m r² / 2, by which a wheel is drawn, whatever its link is.
+    /// All links of an arm have its colour, and arms have different ones.
+    #[test]
+    fn arms_have_their_colours() {
+        let (name, text) = SHIPPED.iter().find(|(name, _)| *name == "triple_arm_3r").expect("shipped");
+        let layout = Layout::parse(text, name).expect("a layout");
+        let drawn = robot_visuals(&layout);
+        for (i, arm) in layout.arms.iter().enumerate() {
+            let own: Vec<_> = drawn.iter().filter(|visual| visual.frame.contains(&format!("/{}/", arm.name))).collect();
+            assert_eq!(own.len(), arm.links.len());
+            let [r, g, b] = PALETTE[i].map(|part| f64::from(part) / 255.0);
+            let expected = [r, g, b, 1.0].map(f64::to_bits);
+            assert!(own.iter().all(|visual| visual.colour.map(f64::to_bits) == expected), "{own:?}");
+        }
+    }
+
     #[test]
     fn a_wheel_is_drawn_as_the_disc_of_its_inertia() {
         let (mass, radius) = (4.0, 0.3);

@@ -177,7 +177,7 @@ mod parquet_files {
 mod mcap_files {
     use super::written::{assert_survives_a_full_disk, bits, csv};
     use crate::{manifest, run, scenario};
-    use foxglove::messages::{FrameTransforms, Log, PointCloud, SceneUpdate};
+    use foxglove::messages::{FrameTransforms, Log, PointCloud, SceneUpdate, Timestamp};
     use planar_capture::capture::{CaseResult, LaterImpact, Study};
     use planar_capture::outline::Outline;
     use planar_capture::output::mcap::write_mcap;
@@ -198,8 +198,11 @@ mod mcap_files {
         let mut bytes = Vec::new();
         write_mcap(scenario, study, case, &manifest(scenario), &mut bytes).expect("written");
         let mut file = File { messages: BTreeMap::new(), fields: BTreeMap::new(), units: BTreeMap::new() };
+        let mut latest = 0;
         for message in mcap::MessageStream::new(&bytes).expect("MCAP") {
             let message = message.expect("a message");
+            assert!(message.log_time >= latest, "{} ns after {latest} ns", message.log_time);
+            latest = message.log_time;
             let topic = message.channel.topic.clone();
             let schema = message.channel.schema.clone().expect("a schema");
             assert_eq!((message.channel.message_encoding.as_str(), schema.encoding.as_str()), ("protobuf", "protobuf"));
@@ -284,6 +287,16 @@ mod mcap_files {
             assert_eq!(found, expected, "row {i}");
         }
         assert_eq!(file.messages["/tf"].len(), rows.len());
+        // what has a time in the message has that at which it is logged
+        let nanoseconds = |time: Option<Timestamp>| {
+            let time = time.expect("a time");
+            u64::from(time.sec()) * 1_000_000_000 + u64::from(time.nsec())
+        };
+        for (time, message) in &file.messages["/tf"] {
+            let transforms = FrameTransforms::decode(&message[..]).expect("transforms").transforms;
+            assert!(transforms.into_iter().all(|transform| nanoseconds(transform.timestamp) == *time), "{time}");
+        }
+        assert!(file.messages["/tf"].iter().any(|(time, _)| time % 1_000_000_000 != 0));
         let impact = numbers(&file, "/impact", &file.messages["/impact"][0].1);
         let exact = &study.cases[0].capture.as_ref().expect("a capture").impact.exact;
         assert!(impact.contains(&("kinetic_energy_after".to_owned(), exact.kinetic_energy_after)), "{impact:?}");

@@ -171,6 +171,23 @@ pub(in crate::output) fn round_number(least: f64) -> f64 {
 mod tests {
     use super::{Arrow, Extent, View, WIDTH, round_number};
 
+    /// Near is within a fifth of the longer side, in both directions.
+    #[test]
+    fn near_is_near_in_both_directions() {
+        let extent = Extent { low: [0.0, 0.0], high: [10.0, 2.0] };
+        for (at, is_near) in [
+            ([5.0, 1.0], true),
+            ([11.9, -1.9], true),
+            ([-1.9, 3.9], true),
+            ([12.1, 1.0], false),
+            ([-2.1, 1.0], false),
+            ([5.0, 4.1], false),
+            ([5.0, -2.1], false),
+        ] {
+            assert_eq!(extent.is_near(at), is_near, "{at:?}");
+        }
+    }
+
     #[test]
     fn what_is_shown_is_inside_the_picture() {
         for (low, high) in [([-3.0, -1.0], [3.0, 1.0]), ([0.0, 0.0], [0.1, 4.0])] {
