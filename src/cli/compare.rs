@@ -2,7 +2,7 @@
 
 use super::terminal::{note, print};
 use super::{CommandError, derive, file_error, layout};
-use crate::compare::{Comparison, LargestError, compare};
+use crate::compare::{Comparison, LargestError, Refusal, compare};
 use crate::engine::{Choice, Engine};
 use crate::eval::to_json;
 use crate::layout::Layout;
@@ -70,15 +70,7 @@ pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, Comman
         "{}Worst states in {shown}; replay one there:\nplanar-capture eval QUANTITY.toml QUANTITY.json\n",
         table(&comparison, (&layout.name, &choice), arguments),
     ));
-    for refusal in &comparison.refusals {
-        let (implementation, error) = match (&refusal.generated, &refusal.generic) {
-            (Some(error), None) => (choice.engine.name(), error),
-            (None, Some(error)) => ("generic", error),
-            _ => continue,
-        };
-        let (regime, index) = (refusal.regime.name(), refusal.index);
-        note(format_args!("compare: {regime}, state {index}: only {implementation} says: {error}"));
-    }
+    comparison.refusals.iter().filter_map(|refusal| one_sided(refusal, choice.engine)).for_each(note);
     let over: Vec<_> = comparison
         .largest_errors
         .iter()
@@ -108,6 +100,17 @@ fn choose(layout: &Layout, arguments: &Arguments, robots: Robots<'_>) -> Result<
     }
     derive::into_cache(layout, &arguments.layout, arguments.quiet)?;
     Choice::graph(layout).map_err(file_error(&arguments.layout))
+}
+
+/// What one side alone says of a state; `None` where both have no result.
+fn one_sided(refusal: &Refusal, engine: Engine) -> Option<String> {
+    let Refusal { regime, index, generated, generic } = refusal;
+    let (implementation, error) = match (generated, generic) {
+        (Some(error), None) => (engine.name(), error),
+        (None, Some(error)) => (Engine::Generic.name(), error),
+        _ => return None,
+    };
+    Some(format!("compare: {}, state {index}: only {implementation} says: {error}", regime.name()))
 }
 
 /// Name of the files of a quantity.
@@ -147,4 +150,30 @@ fn table(comparison: &Comparison, (name, choice): (&str, &Choice), arguments: &A
     let both = comparison.refusals.iter().filter(|r| r.generated.is_some() && r.generic.is_some()).count();
     let none = if both == 0 { String::new() } else { format!("\n{both} states have no result by either of them.\n") };
     format!("{of}{states}\n\n{}{none}\n", table.text())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Refusal, one_sided};
+    use crate::engine::Engine;
+    use crate::error::Error;
+    use crate::sampling::REGIMES;
+
+    #[test]
+    fn the_side_that_refuses_is_named() {
+        let of = |generated: bool, generic: bool| {
+            let error = |what, is_there: bool| is_there.then_some(Error::Singular { what, pivot: 0.5, limit: 1.0 });
+            let (generated, generic) = (error("its matrix", generated), error("the reference's", generic));
+            let refusal = Refusal { regime: REGIMES[2], index: 7, generated, generic };
+            one_sided(&refusal, Engine::Graph)
+        };
+        let state = format!("compare: {}, state 7: only", REGIMES[2].name());
+        for (found, expected) in
+            [(of(true, false), "graph says: its matrix"), (of(false, true), "generic says: the reference's")]
+        {
+            let found = found.expect("a text");
+            assert!(found.starts_with(&format!("{state} {expected}")), "{found}");
+        }
+        assert_eq!(of(true, true), None);
+    }
 }
