@@ -90,3 +90,26 @@ fn item(name: &str, explanation: &str) -> String {
     let lines = wrap(&format!("  {name:<width$}", width = NAME - 2), &" ".repeat(NAME), explanation);
     lines.iter().flat_map(|line| [line.trim_end(), "\n"]).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{LawFormat, LawNumber, own_law};
+    use crate::format::NumberRule;
+
+    const NUMBERS: &[LawNumber] = &[
+        LawNumber { key: "stiffness", rule: NumberRule::positive("a stiffness", "N m/rad"), default: None },
+        LawNumber { key: "share", rule: NumberRule::any("a share", ""), default: Some(0.5) },
+        LawNumber { key: "reach", rule: NumberRule::any("a length", "m"), default: Some(2.0) },
+    ];
+
+    #[test]
+    fn a_law_of_ones_own_is_listed_with_its_numbers() {
+        let law = LawFormat { name: "spring", doc: "pulls back.", numbers: NUMBERS };
+        let words: Vec<_> = own_law(&law).split_whitespace().map(str::to_owned).collect();
+        assert_eq!(
+            words.join(" "),
+            "spring of this program: pulls back.; law: stiffness, a stiffness in N m/rad greater than 0, share = 0.5, \
+             reach = 2 m"
+        );
+    }
+}

@@ -224,3 +224,20 @@ pub fn main_with_laws(robots: &[CompiledRobot], laws: &[RegisteredLaw]) -> ExitC
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::CommandError;
+    use crate::output::finite::finite;
+    use serde_json::json;
+
+    /// Numbers that are none come from a computation, whatever its input was.
+    #[test]
+    fn exit_codes_tell_computations_from_inputs() {
+        let source = finite(json!({"energy": f64::INFINITY})).expect_err("no number");
+        assert_eq!(CommandError::Numbers { file: "it.toml".to_owned(), source }.exit_code(), 1);
+        assert_eq!(CommandError::Usage("it".to_owned()).exit_code(), 2);
+        let source = std::io::Error::other("it").into();
+        assert_eq!(CommandError::File { file: "it.toml".to_owned(), source, exit_code: 1 }.exit_code(), 1);
+    }
+}

@@ -138,6 +138,23 @@ fn the_report_has_all_cases() {
     assert_eq!(cases[1]["impacts"][0]["exact"], summary["cases"][1]["impact"]["exact"]);
 }
 
+/// `--case` chooses among cases with values of their own as among the others.
+#[test]
+fn chosen_cases_are_run_alone() {
+    let place = Place::new();
+    let set = place.write("set.toml", &with_set());
+    for (chosen, wanted) in [
+        (&["case3"][..], &["case3.csv", "summary.json"][..]),
+        (&["heavy"], &["heavy.csv", "summary.json"]),
+        (&["heavy", "case1"], &["case1.csv", "heavy.csv", "summary.json"]),
+    ] {
+        let more: Vec<_> = chosen.iter().flat_map(|name| ["--case", name]).collect();
+        let summary = place.run(&set, "out", &more);
+        assert_eq!(names(&place.path("out")), wanted, "{chosen:?}");
+        assert_eq!(summary["cases"].as_array().map(Vec::len), Some(chosen.len()), "{chosen:?}");
+    }
+}
+
 /// Without another case there is no other approach, and no figures of one.
 #[test]
 fn every_case_may_have_values() {
@@ -267,6 +284,7 @@ fn what_is_wrong_without_the_values_too_is_said_once() {
         let path = place.write("far.toml", &own.replace("[[2.2, -0.9]]", "[[9.9, -0.9]]"));
         let (code, out, err) = said(&["check", &path]);
         assert_eq!((code, err.matches("is out of reach").count()), (2, times), "{set}: {out}{err}");
+        assert!(!out.contains("no warnings"), "{set}: {out}");
     }
     // a warning
     for (set, times) in [("\"layout.base.mass\" = 90.0", 1), ("\"target.disc.mass\" = 900.0", 2)] {

@@ -20,6 +20,7 @@ fn a_drawing_has_the_angles_that_are_given() {
 fn angles_that_are_not_one_for_each_joint_are_refused() {
     for (angles, expected) in [
         ("0.1", &["--angles has 1 numbers, expected 6", "arm1: 3, arm2: 3"][..]),
+        ("0,0,0,0,0,0,0.1", &["--angles has 7 numbers, expected 6", "arm1: 3, arm2: 3"]),
         ("0.1,x", &["'x'", "joint angles in rad"]),
         ("nan", &["'nan'", "joint angles in rad"]),
         ("1e300", &["'1e300'"]),

@@ -5,6 +5,7 @@
 use crate::said;
 use planar_capture::diagnostic::is_hidden;
 use planar_capture::layout::{Arm, Base, Layout, Link};
+use planar_capture::outline::Outline;
 use planar_capture::registry;
 use planar_capture::urdf::{HeldJoint, ImportOptions, ImportedJoint, ImportedLayout, export, import};
 use planar_proof::{assert_close, file, sample, tolerance};
@@ -839,6 +840,29 @@ fn the_commands_write_files_or_the_standard_output() {
     assert!(out.contains("\nname = \"mine\"\n") && out.contains("# warning: the robot would leave the plane"), "{out}");
     assert!(err.contains("import: note: arm `shoulder`, joint 3 = -`wrist`"), "{err}");
     assert!(err.contains("import: warning: the robot would leave the plane"), "{err}");
+}
+
+/// Outlines of the base and of links are counted together.
+#[test]
+fn outlines_that_a_urdf_lacks_are_counted() {
+    let folder = TempDir::new().expect("a folder");
+    let path = folder.path().join("robot.toml");
+    let plain = fs::read_to_string(file("codegen/layouts/single_arm_2r.toml")).expect("a layout");
+    let plain = without_outlines(Layout::parse(&plain, "single_arm_2r.toml").expect("a layout"));
+    for (of_base, of_links) in [(false, 0), (false, 2), (true, 0), (true, 1)] {
+        let mut layout = plain.clone();
+        layout.base.outline = of_base.then_some(Outline::disc(0.5));
+        layout.arms[0].links[..of_links].iter_mut().for_each(|link| link.outline = Some(Outline::disc(0.1)));
+        fs::write(&path, layout.to_toml()).expect("written");
+        let (code, _, err) = said(&["export", &path.display().to_string()]);
+        let expected = match usize::from(of_base) + of_links {
+            0 => String::new(),
+            count => {
+                format!("warning: outlines are no part of the URDF, and `import` has none: {count} are left out\n")
+            }
+        };
+        assert_eq!((code, err), (0, expected));
+    }
 }
 
 #[test]
