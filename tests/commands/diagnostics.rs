@@ -424,13 +424,13 @@ const SCENARIO_EDITS: &[Edit] = &[
         "[approach]",
         "joint_rates = [0, 1]\n[limits]\njoint_rates = 0.5\n[approach]",
         5,
-        &["`initial.joint_rates[1]` is 1: faster than joint 2 of left may turn, 0.5 rad/s"],
+        &["`initial.joint_rates[1]` is 1: faster than joint 2 of left may turn, 0.5 rad/s (`limits.joint_rates`)"],
     ),
     (
         "[approach]",
         "joint_rates = [0, -1]\n[limits]\njoint_rates = 0.5\n[approach]",
         5,
-        &["`initial.joint_rates[1]` is -1: faster than joint 2 of left may turn, 0.5 rad/s"],
+        &["`initial.joint_rates[1]` is -1: faster than joint 2 of left may turn, 0.5 rad/s (`limits.joint_rates`)"],
     ),
     (
         "[approach]",

@@ -180,6 +180,14 @@ fn a_bad_state_is_named_with_key_value_and_what_would_be_right() {
     holds(said(&|s| s["base_pose"] = json!([0, "x", 0])), &["`base_pose[1]` is \"x\"", "expected a number"]);
     holds(said(&|s| s["base_twist"] = Value::Null), &["`base_twist` is null", "[ω, vx, vy] in rad/s, m/s, m/s"]);
     holds(said(&|s| drop(s.as_object_mut().map(|s| s.remove("joint_rates")))), &["missing key `joint_rates`"]);
+    holds(said(&|s| s["base_pose"] = json!(1)), &["`base_pose` is 1", "[yaw, x, y] in rad, m, m"]);
+    holds(said(&|s| s["base_wrench"] = json!([1])), &["`base_wrench` is [1]", "expected [n, fx, fy] in N m, N, N"]);
+    let wrenches = "expected 2 wrenches [n, fx, fy] in N m, N, N, one per arm";
+    holds(said(&|s| s["end_effector_wrenches"] = json!([])), &["`end_effector_wrenches` is []", wrenches]);
+    holds(
+        said(&|s| s["end_effector_wrenches"] = json!([[0, 0, 0], [1]])),
+        &["`end_effector_wrenches[1]` is [1]", "expected [n, fx, fy] in N m, N, N"],
+    );
     holds(said(&|s| s["targets"] = json!([null])), &["expected 2 targets, one per arm", "it has 1"]);
     holds(said(&|s| s["targets"][1]["mass"] = json!(0)), &["`targets[1].mass` is 0", "greater than 0"]);
     holds(said(&|s| s["targets"][1]["inertia"] = json!(-1)), &["`targets[1].inertia` is -1", "greater than 0"]);
@@ -217,6 +225,7 @@ fn text_that_is_no_array_of_states_is_an_error_with_its_line() {
         (format!("[{good},\n]"), 1, "line 2: state 1: expected a state, `{…}`, but found `]`"),
         (format!("[{good}\n{good}]"), 0, "state 0: not JSON: trailing characters"),
         (format!("[{good}"), 0, "state 0: expected the end of this state"),
+        ("\u{1f}".to_owned(), 0, "line 1: expected an array of states, `[{…}, …]`, but found byte 0x1f"),
         (format!("[{good}]\n\nx"), 1, "line 3: expected nothing after the array, but found `x`"),
         (
             format!("[\n{}]", good.replace("\"joint_torques\":[", "\"joint_torques\":[1e999,")),

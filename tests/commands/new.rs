@@ -125,6 +125,17 @@ fn first_scenarios_pass_their_audit() {
         let scenario = scenario.replace(&format!("../layouts/{name}.toml"), name);
         let scenario = Scenario::parse(&scenario, "first.toml", Path::new(""), &[(name, text)]);
         let scenario = scenario.unwrap_or_else(|report| panic!("{name}: {report}"));
+        // the first joint of an arm against the others, and every second arm mirrored
+        let mut turns = scenario.approach.final_joint_angles.iter().zip(&scenario.initial.joint_angles);
+        for (i, arm) in layout.arms.iter().enumerate() {
+            let side = if i % 2 == 0 { 1.0 } else { -1.0 };
+            for k in 0..arm.links.len() {
+                let (end, start) = turns.next().expect("an angle for each joint");
+                let expected = side * if k == 0 { -0.3 } else { 0.4 };
+                // three digits are written
+                assert!((end - start - expected).abs() < 2e-3, "{name}, arm {i}, joint {k}: {start} to {end}");
+            }
+        }
         let (choice, _) = Choice::fastest(&layout, Robots::SHIPPED);
         let model = choice.model(&layout);
         let study =
@@ -172,6 +183,7 @@ fn refusals() {
     for (folder, options, message) in [
         ("My-Study", &[][..], "`--name my_study` would do"),
         ("loop", &[], "`--name loop_robot` would do"),
+        ("_arm_", &[], "`--name arm` would do"),
         ("test", &[], "`--name test_robot` would do"),
         ("2r", &[], "`--name robot_2r` would do"),
         ("study", &["--name", "böse"], "no name for a crate"),
