@@ -101,4 +101,16 @@ mod tests {
         assert!(!is_same_with(&|entries| entries.push(entry("sources/c.c", "c"))));
         assert!(!is_same(Cursor::new(b"no archive"), &fmu));
     }
+    /// A binary can be executed, and nothing else.
+    #[test]
+    fn binaries_can_be_executed() {
+        let entry = |path: &str| Entry { path: path.to_owned(), content: b"it".to_vec() };
+        let entries = vec![entry("modelDescription.xml"), entry("binaries/x86_64-linux/a.so"), entry("sources/a.c")];
+        let written = bytes(&Fmu { name: "a".to_owned(), entries }).expect("an archive");
+        let mut archive = ZipArchive::new(Cursor::new(written)).expect("an archive");
+        for (index, mode) in [0o644, 0o755, 0o644].into_iter().enumerate() {
+            let found = archive.by_index(index).expect("a file").unix_mode().map(|mode| mode & 0o777);
+            assert_eq!(found, Some(mode), "{index}");
+        }
+    }
 }

@@ -112,3 +112,28 @@ fn hashed(text: &CText, robot: &CoSimulation, description: &str) -> String {
     all.push(description.to_owned());
     all.concat()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Fmu, Origin};
+    use crate::build::graph;
+    use crate::graphs::carried;
+
+    /// The token tells apart what differs in the description alone, as layouts of one structure do.
+    #[test]
+    fn other_descriptions_have_other_tokens() {
+        let (_, text) = carried().find(|(path, _)| path.contains("single_arm_2r")).expect("a graph");
+        let graph = graph::read_any(text).expect("a graph");
+        let token = |layout_sha256: &str| {
+            let origin = Origin { name: "robot", layout_sha256, source: "robot.toml", command: "it" };
+            let fmu = Fmu::new(&graph, &origin).expect("an FMU");
+            let description =
+                fmu.entries.iter().find(|entry| entry.path == "modelDescription.xml").expect("a description");
+            let xml = String::from_utf8(description.content.clone()).expect("UTF-8");
+            let (_, rest) = xml.split_once("instantiationToken=\"").expect("a token");
+            rest.split('"').next().expect("its text").to_owned()
+        };
+        assert_eq!(token("0a"), token("0a"));
+        assert_ne!(token("0a"), token("0b"));
+    }
+}

@@ -56,10 +56,23 @@ fn an_fmu_without_a_compiler_has_sources_alone_and_always_the_same_bytes() {
     }
     // the licence of FMI's headers, and the name of the arm
     assert!(has("Redistribution and use in source and binary forms") && has("left &quot;hand&quot;_joint1_angle"));
+    assert!(has("<DefaultExperiment startTime=\"0\" stopTime=\"10\" stepSize=\"0.01\"/>"));
     assert!(!has("binaries/"), "no binary");
     // over its own file, with a compiler that fails
     let (code, out, err) = written(folder.path(), "false", &[]);
     assert!(code == 0 && out.contains("sources only") && err.contains("`false` failed: no message"), "{out}{err}");
+    // of several messages the first error
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        let elsewhere = TempDir::new().expect("a folder");
+        let compiler = elsewhere.path().join("cc.sh");
+        let script = "#!/bin/sh\necho 'a.c:1: warning: unused' >&2\necho 'a.c:2: error: missing' >&2\nexit 1\n";
+        fs::write(&compiler, script).expect("written");
+        fs::set_permissions(&compiler, fs::Permissions::from_mode(0o755)).expect("set");
+        let (code, _, err) = written(folder.path(), &compiler.display().to_string(), &[]);
+        assert!(code == 0 && err.contains("cc.sh` failed: a.c:2: error: missing\n"), "{err}");
+    }
     assert!(fs::read(&path).expect("an FMU") == first, "other bytes from the same layout");
 
     // binaries are not compared
