@@ -91,3 +91,39 @@ fn descend<'a, 'p>(value: &'a Spanned<DeValue<'a>>, rest: &'p str) -> (&'a Spann
     };
     inner.unwrap_or((value, rest))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Warning, report_error, report_warnings};
+
+    const TEXT: &str = "name = \"it\"\n[approach]\nduration = 1.0\n[[target]]\nmass = 2.0\n";
+
+    /// An error says what the default is, a warning does not; both stand at the table that may hold the key.
+    #[test]
+    fn what_is_left_at_its_default_is_said_with_it() {
+        for (key, line) in [("approach.step", 2), ("target[0].yaw", 4), ("limits", 1)] {
+            let error = report_error(TEXT, "it.toml", (key, "0.25 s"), "too long", None).to_string();
+            assert!(error.starts_with(&format!("error: `{key}` is left at its default, 0.25 s: too long")), "{error}");
+            let (key, why, help) = (key.to_owned(), "too long".to_owned(), "less".to_owned());
+            let said = format!("warning: `{key}` is left at its default: too long");
+            let warning = report_warnings(TEXT, "it.toml", &[Warning { key, why, help }]).to_string();
+            assert!(warning.starts_with(&said), "{warning}");
+            for shown in [error, warning] {
+                let place = format!("it.toml:{line}:");
+                assert!(shown.contains(&place) && shown.contains("it could stand here"), "no {place} in\n{shown}");
+            }
+        }
+    }
+
+    /// What is given is shown as it is, whatever its default.
+    #[test]
+    fn what_is_given_is_shown() {
+        let error = report_error(TEXT, "it.toml", ("target[0].mass", "1.0"), "too heavy", None).to_string();
+        assert!(
+            error.starts_with("error: `target[0].mass` is 2.0: too heavy") && error.contains("it.toml:5:"),
+            "{error}"
+        );
+        let error = report_error(TEXT, "it.toml", ("approach", "none"), "too fast", None).to_string();
+        assert!(error.starts_with("error: `approach`: too fast") && error.contains("it.toml:2:"), "{error}");
+    }
+}
