@@ -196,3 +196,46 @@ fn equal<T: PartialEq + Debug>(what: &str, found: &T, wanted: &T) -> Result<(), 
     }
     Err(GraphError::Differs { what: what.to_owned(), found: format!("{found:?}"), wanted: format!("{wanted:?}") })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{GraphError, read, read_for};
+    use planar_layout::layout::Layout;
+    use std::fs;
+
+    /// A shipped layout and its graph.
+    fn shipped() -> (Layout, String) {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../codegen");
+        let layout = Layout::read(format!("{folder}/layouts/single_arm_2r.toml").as_ref()).expect("a layout");
+        (layout, fs::read_to_string(format!("{folder}/graphs/single_arm_2r.json")).expect("a graph"))
+    }
+
+    /// For another layout of its structure a graph says that one's names.
+    #[test]
+    fn descriptions_name_the_arms_of_the_layout() {
+        let (mut layout, text) = shipped();
+        let old = layout.arms[0].name.clone();
+        layout.arms[0].name = "gripper".to_owned();
+        let graph = read_for(&text, &layout).expect("its graph");
+        let count = |name: &str| {
+            let name = format!("({name})");
+            graph.parameters.iter().filter(|parameter| parameter.description.ends_with(&name)).count()
+        };
+        // those of links have the number of their arm
+        assert_eq!(count("gripper"), text.matches(&format!("({old})\"")).count());
+        assert!(count("gripper") > 0 && count(&old) == 0);
+    }
+
+    /// A number of the layout that is not 0 has a parameter, whatever hash the graph has.
+    #[test]
+    fn numbers_without_a_parameter_are_refused() {
+        let (layout, text) = shipped();
+        assert!(read(&text, &layout).is_ok());
+        let mut other = layout.clone();
+        other.arms[0].mount[1] = 0.1;
+        let text = text.replace(&layout.sha256(), &other.sha256());
+        let found = read(&text, &other).map(|_| ());
+        let Err(GraphError::Differs { what, found, wanted }) = found else { panic!("{found:?}") };
+        assert!(what.contains("MountY of arm 0, link 0") && found == "no parameter" && wanted == "0.1", "{what}");
+    }
+}
