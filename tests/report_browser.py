@@ -19,6 +19,7 @@ from playwright.sync_api import sync_playwright
 from report_cases import VALUES, outward_impulses, own_values
 from report_contacts import CHECKS, picture, scrub
 from report_controls import use_controls
+from report_numbers import numbers
 
 ROOT = Path(__file__).resolve().parent.parent
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
@@ -68,9 +69,11 @@ def use(page, file, pictures, check):
         before = page.inner_text("#own .impact")
         page.select_option("#case", index=cases - 1)
         assert page.inner_text("#own .impact") != before
+    summary = json.loads((file.parent / "summary.json").read_text())
     if check:
         scenario = tomllib.loads((ROOT / "scenarios" / f"{file.parent.name}.toml").read_text())
-        check(page, file.parent, json.loads((file.parent / "summary.json").read_text()), scenario)
+        check(page, file.parent, summary, scenario)
+    numbers(page, file.parent, summary)
     use_controls(page, file, pictures)
     assert not heard, heard
     assert not [url for url in asked if not url.startswith((file.as_uri(), "blob:"))], asked
