@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 import types
 
 import pytest
@@ -68,7 +69,9 @@ def test_the_fingerprint_follows_pins_and_python(tmp_path, monkeypatch):
     pins.write_text("casadi==3.8.3\n")
     second = environment.fingerprint([pins])
     monkeypatch.setattr(sys, "version", "3.14.0 (main)")
-    assert len({first, second, environment.fingerprint([pins])}) == 3
+    third = environment.fingerprint([pins])
+    monkeypatch.setattr(sys, "base_prefix", "/opt/python")
+    assert len({first, second, third, environment.fingerprint([pins])}) == 4
 
 
 LOCKS = [environment.REQUIREMENTS, environment.DEV, environment.REFERENCE]
@@ -145,7 +148,8 @@ def test_without_locks_it_goes_after_a_day(elsewhere, monkeypatch, system):
     old, new = elsewhere / "making-old", elsewhere / "making-new"
     for left in (old, new):
         left.mkdir()
-    os.utime(old, (0, 0))
+    for left, hours in ((old, 25), (new, 23)):
+        os.utime(left, (time.time() - 3600 * hours,) * 2)
     monkeypatch.setattr(environment, "fcntl", system)
     Pip(monkeypatch)
     environment.ensure()

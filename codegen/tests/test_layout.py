@@ -42,6 +42,7 @@ UNREADABLE = [  # a text, what replaces it, and what is then said of the file
     ("mass = 500.0", "mass = nan", "base.mass is not a finite number"),
     ("mass = 500.0", "mass = " + "9" * 400, "base.mass is not a finite number"),
     ("[0.5, 0.25]", "[0.5]", "arm[0].mount is not a pair [x, y]"),
+    ("[0.5, 0.25]", "[0.5, 0.25, 0.0]", "arm[0].mount is not a pair [x, y]"),
     ("[0.5, 0.25]", "[0.5, inf]", "arm[0].mount[1] is not a finite number"),
     ('name = "left"', "name = 3", "arm[0].name is not a string"),
     (TEXT[TEXT.index("[base]") : TEXT.index("[[arm]]")], "base = 3\n", "base is not a table"),
