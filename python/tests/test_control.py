@@ -48,6 +48,43 @@ def test_it_is_called_once_per_sample_and_its_torques_are_held():
     assert len(torque) == 4001 and 100 < len(np.unique(torque)) <= 200
 
 
+def test_a_controller_is_reset_before_every_phase():
+    # two targets are met one after the other, and the motion after each impact is a phase
+
+    class Still:
+        """No torques."""
+
+        resets = 0
+
+        def reset(self):
+            self.resets += 1
+
+        def __call__(self, time, state, desired):
+            return np.zeros(6)
+
+    control = Still()
+    result = pc.run(SCENARIOS / "elastic_rebound.toml", post_capture_control=control, sample_time=0.05)
+    impacts = [case.summary.get("post_impact", {}).get("impacts", []) for case in result.cases.values()]
+    phases = sum(1 + len(later) for later in impacts)
+    assert max(map(len, impacts)) > 0 and control.resets == phases
+
+
+def test_each_phase_has_its_own_controller():
+    called = {"approach": 0, "afterwards": 0}
+
+    def of(phase):
+        def control(time, state, desired):
+            called[phase] += 1
+            return np.zeros(6)
+
+        return control
+
+    text = PAPER.read_text().replace("duration = 20.0", "duration = 1.0").replace("duration = 50.0", "duration = 2.0")
+    text = text[: text.index("[[case]]", text.index("[[case]]") + 1)] + text[text.index("[post_impact]") :]
+    pc.run(text, of("approach"), post_capture_control=of("afterwards"), sample_time=0.1)
+    assert called["approach"] >= 10 and called["afterwards"] >= 20, called
+
+
 def test_a_controller_with_a_memory_keeps_the_audit_and_is_reset():
     class Filtered:
         """By filtered rates that are one sample late."""

@@ -1,5 +1,6 @@
 """Sweeps by Dask: the bytes of one machine, with workers that are killed."""
 
+import contextlib
 import os
 import signal
 import subprocess
@@ -125,3 +126,14 @@ def test_without_dask_the_command_says_so_in_one_line():
     (needed,) = project["optional-dependencies"]["distributed"]
     assert done.returncode == 2
     assert done.stderr == f"error: Dask is not installed: pip install '{needed}'\n"
+
+
+def test_an_interruption_has_its_exit_code(monkeypatch, capsys):
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(distributed, "Client", contextlib.nullcontext)
+    monkeypatch.setattr(distributed, "sweep", interrupted)
+    monkeypatch.setattr(sys, "argv", ["distributed", "it.toml"])
+    assert distributed.main() == 130
+    assert capsys.readouterr().err == "interrupted: the same command goes on from here\n"

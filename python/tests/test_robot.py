@@ -140,8 +140,11 @@ def test_parameters_are_those_of_another_layout(robot):
 def test_wrong_parameters_are_named(robot):
     with pytest.raises(pc.InputError, match="no parameter 'base_mas'; did you mean 'base_mass'"):
         robot.mass_matrix(np.zeros(3), np.zeros(6), parameters={"base_mas": 1.0})
-    with pytest.raises(pc.InputError, match="greater than 0"):
-        robot.mass_matrix(np.zeros(3), np.zeros(6), parameters={"base_mass": [400.0, 0.0]})
+    positive = [name for name in robot.parameters if "mass" in name or "inertia" in name]
+    assert {"base_mass", "base_inertia"} < set(positive)
+    for name in positive:
+        with pytest.raises(pc.InputError, match=f"'{name}' is 0.0, expected numbers greater than 0"):
+            robot.mass_matrix(np.zeros(3), np.zeros(6), parameters={name: [400.0, 0.0]})
     with pytest.raises(pc.NotFiniteError, match="'base_mass' = nan is not a finite number") as raised:
         robot.mass_matrix(np.zeros(3), np.zeros(6), parameters={"base_mass": [400.0, np.nan]})
     assert raised.value.index == (1,)
@@ -167,6 +170,9 @@ def test_a_state_without_a_result_is_raised_with_its_numbers(robot):
         assert np.isnan(raised.value.inputs["joint_angles"][3])
         again = pickle.loads(pickle.dumps(raised.value))
         assert (type(again), str(again), again.index) == (pc.NotFiniteError, str(raised.value), (1, 2))
+        assert again.inputs.keys() == raised.value.inputs.keys() >= {"base_pose", "joint_angles"}
+        for name, value in again.inputs.items():
+            np.testing.assert_array_equal(value, raised.value.inputs[name])
 
 
 def test_a_singular_state_is_raised_with_its_pivot(robot):

@@ -94,6 +94,7 @@ def same_as_the_command(file, name, command, tmp_path):
         heading, *rows = csv.reader(text.splitlines())
         assert heading[:2] == ["time [s]", "phase"]
         units = values.series.units
+        assert units["t"] == "s" and set(units) == set(values.series) - {"phase"}
         assert heading[2:] == [f"{column} [{units[column]}]" for column in list(values.series)[2:]]
         for place, column in enumerate(values.series):
             written = [row[place] for row in rows]

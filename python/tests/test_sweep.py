@@ -1,6 +1,7 @@
 """Sweeps: the command's bytes, interruption, refusals."""
 
 import html
+import json
 import re
 import shlex
 
@@ -54,6 +55,15 @@ def test_files_have_the_bytes_of_the_command(command, file, tmp_path):
     assert words == ["planar-capture", "sweep", str(file), "--out", str(result.folder), "--replay", "INDEX", "--report"]
     again = pc.sweep(file, tmp_path / "command")
     assert again.present == 60 and not again.computed
+    assert repr(again) == f"<SweepResult small: 60 cases, 60 were there before; {tmp_path / 'command'}>"
+    assert repr(result) == f"<SweepResult small: 60 cases, 60 done; {result.folder}>"
+
+
+def test_a_sweep_is_computed_by_what_is_asked_for(file, tmp_path):
+    file.write_text(file.read_text().replace("cases = 60", "cases = 2"))
+    for dynamics in ("generic", "graph"):
+        folder = pc.sweep(file, tmp_path / dynamics, dynamics=dynamics).folder
+        assert json.loads((folder / "manifest.json").read_text())["engine"] == dynamics
 
 
 def test_shards_and_an_interruption(file, tmp_path):
