@@ -76,7 +76,7 @@ macro_rules! implement_dynamics {
                     *bias = result.generalized_bias;
                     *jacobian = result.generalized_jacobian;
                     let pivot = result.smallest_pivot;
-                    let numbers = [angles, rates, inertia.as_flattened(), bias, jacobian.as_flattened()];
+                    let numbers: [&[T]; 5] = [angles, rates, bias, jacobian.as_flattened(), inertia.as_flattened()];
                     if !is_regular_and_finite(pivot, numbers) {
                         let found = objection::to_reduced_dynamics(angles, rates, pivot, inertia, bias, jacobian);
                         return Err(found.error());
@@ -295,15 +295,16 @@ macro_rules! implement_dynamics {
             $crate::implement_dynamics!(@finite pose twist);
             let result = Model::$function(model, pose, angles, twist, rates, torques $(, $wrench)*);
             let (base, of_joints) = (result.base_acceleration, result.joint_accelerations);
-            *joints = of_joints;
             // the angular acceleration of the base is a part of the first joint's
             if !is_regular_and_finite(result.smallest_pivot, [&base[1..], &of_joints]) {
+                *joints = of_joints;
                 let [alpha, ax, ay] = base;
                 let wrenches: &[&[T]] = &[$($slice),*];
                 let pivot = result.smallest_pivot;
                 let found = objection::to_accelerations(angles, rates, torques, joints, wrenches, pivot, alpha, ax, ay);
                 return Err(found.error());
             }
+            *joints = of_joints;
             Ok(base)
         }
     };

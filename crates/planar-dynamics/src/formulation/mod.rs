@@ -77,7 +77,7 @@ pub fn derivative<T: Real, M: Model<T> + ?Sized>(
     let forces = Forces { base_wrench, ..Forces::torques(torques) };
     *accelerations.base = model.forward_dynamics(&state, &forces, accelerations.joints)?;
     let [omega, ..] = state.base_twist;
-    let base_torque = base_torque.unwrap_or(T::ZERO);
-    *work = [dot(torques, state.joint_rates), base_torque * omega, base_torque];
+    let of_base = base_torque.map_or([T::ZERO; 2], |torque| [torque * omega, torque]);
+    *work = [dot(torques, state.joint_rates), of_base[0], of_base[1]];
     Ok(())
 }
