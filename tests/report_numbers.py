@@ -13,8 +13,8 @@ RECORD = """() => {
     const seen = { circles: [], squares: 0, heads: [], ellipses: [], strokes: 0 }, kept = {};
     for (const name of ["drawBase", "drawAttachment", "circle", "area", "arrowHead"]) kept[name] = window[name];
     let attaching = false;
-    window.drawBase = (now, screen, ...rest) => {
-        seen.axes = [[0, 0], [1, 0], [0, 1]].map(screen); kept.drawBase(now, screen, ...rest); };
+    window.drawBase = (layout, now, screen, ...rest) => {
+        seen.axes = [[0, 0], [1, 0], [0, 1]].map(screen); kept.drawBase(layout, now, screen, ...rest); };
     window.drawAttachment = (hold, ...rest) => {
         attaching = true; seen.attached = [...(seen.attached ?? []), { kind: hold.kind, as: null }];
         kept.drawAttachment(hold, ...rest); attaching = false; };
@@ -234,13 +234,12 @@ def wheel(page):
 
 def outside(page):
     """The name of a target outside the picture has its distance from the base."""
-    texts = page.evaluate("""() => { const texts = [], kept = window.label;
-        window.label = (text) => texts.push(text);
+    texts = page.evaluate("""() => {
         const target = { name: "far", radius: 1 }, pose = { point: [4, 6], angle: 0 }, now = { base: [1, 2] };
-        try {
-            nameTarget(target, pose, now, ([x, y]) => [1000 * x, -1000 * y], 1000, 800, 600, "black", []);
-        } finally { window.label = kept; draw(); }
-        return texts; }""")
+        const notes = new Notes(800, 600);
+        nameTarget(target, pose, now, ([x, y]) => [1000 * x, -1000 * y], 1000, 800, 600, "black", notes);
+        draw();
+        return notes.texts.map(({ text }) => text); }""")
     assert texts == ["far, 5.0 m away"], texts
 
 
@@ -248,9 +247,9 @@ def objections(page):
     """Those of a case, of the common approach and of no case are shown with it."""
     names = page.evaluate("study.cases.map(({ name }) => name)")
     shown = page.evaluate(
-        """(texts) => { const kept = study.objections; study.objections = texts; audit();
+        """(texts) => { const part = partOf(current()[0]), kept = part.objections; part.objections = texts; audit();
         const found = [...document.querySelectorAll("#audit .bad")].map((one) => one.textContent);
-        study.objections = kept; audit(); return [found, current()[0].name]; }""",
+        part.objections = kept; audit(); return [found, current()[0].name]; }""",
         ["approach: it", *(f"{name}: it" for name in names), *(f"{name}, post-impact: it" for name in names)],
     )
     own = shown[1]

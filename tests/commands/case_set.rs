@@ -138,6 +138,25 @@ fn the_report_has_all_cases() {
     assert_eq!(cases[1]["impacts"][0]["exact"], summary["cases"][1]["impact"]["exact"]);
 }
 
+/// `-v` says of each case with values of its own what it is computed of, and nothing of others that are not computed.
+#[test]
+fn verbose_runs_say_what_a_case_of_its_own_is_computed_of() {
+    let place = Place::new();
+    let (set, out) = (place.write("set.toml", &with_set()), place.path("out").display().to_string());
+    for (chosen, of_others) in [(&["--case", "heavy"][..], false), (&[], true)] {
+        let (code, _, err) = said(&[&["run", &set, "--out", &out, "-v"], chosen].concat());
+        assert_eq!(code, 0, "{err}");
+        let text = fs::read_to_string(place.path("out").join("summary.json")).expect("a summary");
+        let summary: Value = serde_json::from_str(&text).expect("JSON");
+        let own = summary["cases"].as_array().expect("cases").iter().find(|case| case["name"] == "heavy").expect("it");
+        let hash = &own["run"]["layout_sha256"].as_str().expect("a hash")[..12];
+        let of_it: Vec<_> = err.lines().filter(|line| line.contains("case `heavy`: ")).collect();
+        assert!(of_it.iter().any(|line| line.contains("robot: ") && line.ends_with(hash)), "{err}");
+        assert!(of_it.iter().any(|line| line.contains("approach: 2400 steps")), "{err}");
+        assert_eq!(err.contains("approach: 4000 steps"), of_others, "{err}");
+    }
+}
+
 /// `--case` chooses among cases with values of their own as among the others.
 #[test]
 fn chosen_cases_are_run_alone() {

@@ -28,6 +28,7 @@ use crate::campaign::block_file::{self, Damage};
 use crate::campaign::manifest::origin;
 use crate::campaign::reader::Campaign;
 use crate::campaign::row::Status;
+use crate::campaign::sampling::Sampling;
 use crate::output::atomic_file::write_text;
 use crate::output::figure_kinds::begins_with;
 use crate::output::output_error::OutputError;
@@ -85,6 +86,8 @@ pub struct SweepReport {
     pub same: Vec<(String, String, f64)>,
     /// Whether keys are independent, as first-order indices suppose.
     pub is_independent: bool,
+    /// What the cases are a sample by, where they are not drawn independently, as confidence bounds suppose.
+    pub sampling: Option<&'static str>,
     /// The outputs that have pictures, by the first words of their names; without any the most sensitive ones.
     pub pictured: Vec<String>,
 }
@@ -264,6 +267,7 @@ pub fn report(campaign: &Campaign, folder: &Path) -> Result<SweepReport, Unreada
         outputs,
         same,
         is_independent,
+        sampling: (sweep.sampling != Sampling::Random).then(|| sweep.sampling.in_words()),
         pictured: Vec::new(),
     })
 }

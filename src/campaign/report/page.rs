@@ -51,10 +51,13 @@ pub fn page(report: &SweepReport, command: &str) -> String {
         add(&format!("<p>Correlated: <b>{one}</b> with <b>{other}</b>, rank correlation {rank}.</p>\n"));
     }
     add(&failures(report));
-    add(
+    let of_sampling = report.sampling.map_or_else(String::new, |name| {
+        format!(" That is the confidence of independent draws: of cases by a {name} the bounds are but a hint.")
+    });
+    add(&format!(
         "<h2>Percentiles</h2>\n<p class=\"note\">In brackets: the order statistics between which the percentile is with a \
-         confidence of 95 %; – where there are too few cases for one.</p>\n",
-    );
+         confidence of 95 %; – where there are too few cases for one.{of_sampling}</p>\n",
+    ));
     let mut head = vec!["output".to_owned(), "cases".to_owned()];
     head.extend(PERCENTILES.iter().map(|p| format!("{p} %")));
     add(&table(&head, report.outputs.iter().map(percentiles)));

@@ -76,6 +76,9 @@ fn what_the_page_says() {
         ..SweepReport::default()
     };
     let html = page(&report, "again");
+    assert!(!html.contains("but a hint"), "draws are independent");
+    let by_sobol = SweepReport { sampling: Some("Sobol sequence"), ..SweepReport::default() };
+    assert!(page(&by_sobol, "again").contains("of cases by a Sobol sequence the bounds are but a hint"));
     assert!(html.contains("captured in <b>3</b> of 4 cases with a result, 75.0\u{a0}%"), "{html}");
     assert_eq!(cells(&html, "Extremes"), [["impulse", "−2.5", "7", "4.5", "3"]]);
     assert_eq!(cells(&html, "Rank correlations"), [["impulse", "−0.50", "0.50", "·", "·", "–"]]);

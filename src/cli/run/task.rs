@@ -119,11 +119,16 @@ impl Task<'_> {
         let Self { scenario, source, named, .. } = self;
         let hash = manifest.scenario_sha256();
         note(format_args!("{named}scenario: {}, sha256 {}", source.scenario.file, &hash[..12]));
-        let (layout, hash) = (&scenario.layout.name, &manifest.layout_sha256[..12]);
-        note(format_args!("{named}robot: {layout} of {}, sha256 {hash}", source.layout.file));
-        for phase in &manifest.phases {
-            let (name, steps, integrator) = (phase.phase, phase.steps, phase.integrator);
-            note(format_args!("{named}{name}: {steps} steps, {integrator}"));
+        for (scenario, variant) in scenario.parts() {
+            let of =
+                variant.map_or_else(|| (*named).to_string(), |variant| format!("{named}case `{}`: ", variant.name()));
+            let manifest = variant.map_or_else(|| manifest.clone(), |variant| manifest.of_variant(variant));
+            let (layout, hash) = (&scenario.layout.name, &manifest.layout_sha256[..12]);
+            note(format_args!("{of}robot: {layout} of {}, sha256 {hash}", source.layout.file));
+            for phase in &manifest.phases {
+                let (name, steps, integrator) = (phase.phase, phase.steps, phase.integrator);
+                note(format_args!("{of}{name}: {steps} steps, {integrator}"));
+            }
         }
     }
 

@@ -109,7 +109,9 @@ function missed(one) {
 function clearanceTable(place, chosen) {
   const one = study.cases[chosen], table = place.querySelector(".clearance"), least = one.least;
   const row = (bodies, ...texts) => rowOf([heading(bodies), ...texts.map((text) => cell("td", text))]);
-  table.closest("section").hidden = !least;
+  const box = table.closest("section"), count = one.overlaps.length;
+  box.hidden = !least;
+  box.querySelector("h2").textContent = `Clearance${count > 1 ? `: ${count} overlaps` : ""}`;
   if (!least) return;
   const deepest = one.overlaps.find(({ bodies, from, to }) => `${bodies}` === `${least.bodies}` && from <= least.time && least.time <= to);
   const overlaps = one.overlaps.map((overlap) => {
@@ -123,8 +125,15 @@ function clearanceTable(place, chosen) {
   place.querySelector(".defaults").hidden = !one.overlaps.some(({ default_outline }) => default_outline);
 }
 
+/** What the audit says of the shown cases. */
 function audit() {
-  const [one] = current(), shown = element("audit");
+  element("audit").replaceChildren(...shownCases().flatMap((index, _, all) => {
+    const one = study.cases[index];
+    return auditOf(one, all.length > 1 ? `${one.name}: ` : "");
+  }));
+}
+
+function auditOf(one, whose) {
   const of = (name, phase) => {
     if (!phase) return [];
     const numbers = [["momentum drift", phase.momentum_drift], ["energy error", phase.energy_error],
@@ -139,7 +148,6 @@ function audit() {
   const phases = [approachOf(one), one.post_impact].filter(Boolean);
   const [shownSamples, samples] = phases.reduce(([part, all], phase) => [part + phase.time.length, all + phase.samples], [0, 0]);
   const thinned = shownSamples < samples ? [`animation and plots show ${shownSamples} of ${samples} samples`] : [];
-  shown.replaceChildren(
-    cell("p", [...of("approach", phases[0]), ...of(after, one.post_impact), ...thinned].join(" · ")),
-    ...objections.map((text) => Object.assign(cell("p", text), { className: "bad" })));
+  return [cell("p", whose + [...of("approach", phases[0]), ...of(after, one.post_impact), ...thinned].join(" · ")),
+    ...objections.map((text) => Object.assign(cell("p", text), { className: "bad" }))];
 }

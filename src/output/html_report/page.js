@@ -156,14 +156,14 @@ function legend() {
     ...arms.map((arm, i) => word(`● ${arm.name}`, armColour(i))),
     ...study.parts[0].targets.map((target, i) => word(`◍ ${target.name}`, targetColour(i))),
     ...Object.keys(words).filter((kind) => found.has(kind)).map((kind) => word(words[kind])),
-    ...(found.size ? [word("▼ impact; arrows: impulses on the robot", theme.impulse)] : []),
+    ...(found.size ? [word("▼ impact; arrows: impulses on the robot, small ones drawn larger", theme.impulse)] : []),
     ...(study.cases.some((one) => one.overlaps.length) ? [word("▬ overlap", theme.overlap)] : []));
   if (!found.size) element("ellipse")?.parentElement.remove();
 }
 
 /** A robot and its targets. */
 const described = ({ layout, targets }) => `${layout.name}: base ${layout.base.mass} kg, ` +
-  layout.arms.map((arm) => `${arm.name} of ${arm.links.length} links`).join(", ") +
+  layout.arms.map((arm) => `${arm.name} of ${arm.links.length} ${arm.links.length === 1 ? "link" : "links"}`).join(", ") +
   (targets.length ? `; ${targets.map((target) => `${target.name} ${target.mass} kg`).join(", ")}` : "");
 
 /** What the shown cases are of, and the values of their own that they have. */

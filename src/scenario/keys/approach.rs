@@ -65,7 +65,7 @@ pub(super) static APPROACH: TableFormat = TableFormat {
             "final_end_effector_twists",
             Shape::List(&TWIST_GOAL, Count::Arms),
             Default::Words("zeros with `\"resolved_motion_rate\"`"),
-            "the final velocities: per arm [ω, vx, vy], [vx, vy] (any ω; two links cannot prescribe more) or [], converted \
+            "the final velocities: per arm [ω, vx, vy], [vx, vy] (any ω; two links alone cannot prescribe more) or [], converted \
              by the generalized Jacobian at the final pose of the exactly tracked approach",
         )
         .start("[[0.0, -0.1, 0.0], [0.0, 0.1, 0.0]]"),
