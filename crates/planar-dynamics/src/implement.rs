@@ -101,11 +101,11 @@ macro_rules! implement_dynamics {
                     let wrench = forces.base_wrench.as_ref().unwrap_or(&zero);
                     if let Some(wrenches) = forces.end_effector_wrenches {
                         let wrenches = array("end_effector_wrenches", wrenches)?;
-                        under_wrenches(self, state, forces, angles, rates, torques, wrench, wrenches, joints)
+                        under_wrenches(self, state, angles, rates, torques, wrench, wrenches, joints)
                     } else if forces.base_wrench.is_some() {
-                        under_a_base_wrench(self, state, forces, angles, rates, torques, wrench, joints)
+                        under_a_base_wrench(self, state, angles, rates, torques, wrench, joints)
                     } else {
-                        under_torques(self, state, forces, angles, rates, torques, joints)
+                        under_torques(self, state, angles, rates, torques, joints)
                     }
                 }
             }
@@ -283,7 +283,6 @@ macro_rules! implement_dynamics {
         fn $name<T: Real>(
             model: &Model<T>,
             state: &State<'_, T>,
-            forces: &Forces<'_, T>,
             angles: &[T; JOINTS],
             rates: &[T; JOINTS],
             torques: &[T; JOINTS],

@@ -63,6 +63,7 @@ impl<T: Real> Objection<T> {
     }
 
     /// As an error.
+    #[allow(clippy::inline_always, reason = "where nobody looks at it, nothing of it remains")]
     #[inline(always)]
     #[must_use]
     pub fn error(self) -> Error {

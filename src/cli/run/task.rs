@@ -120,8 +120,7 @@ impl Task<'_> {
         let hash = manifest.scenario_sha256();
         note(format_args!("{named}scenario: {}, sha256 {}", source.scenario.file, &hash[..12]));
         for (scenario, variant) in scenario.parts() {
-            let of =
-                variant.map_or_else(|| (*named).to_string(), |variant| format!("{named}case `{}`: ", variant.name()));
+            let of = variant.map_or_else(|| named.clone(), |variant| format!("{named}case `{}`: ", variant.name()));
             let manifest = variant.map_or_else(|| manifest.clone(), |variant| manifest.of_variant(variant));
             let (layout, hash) = (&scenario.layout.name, &manifest.layout_sha256[..12]);
             note(format_args!("{of}robot: {layout} of {}, sha256 {hash}", source.layout.file));
