@@ -31,6 +31,7 @@ pub mod nalgebra;
 #[doc(hidden)]
 pub mod objection;
 pub mod quantity;
+mod read_again;
 pub mod scalar;
 #[doc(hidden)]
 pub mod standalone;

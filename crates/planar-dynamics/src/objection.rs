@@ -7,8 +7,7 @@
 use crate::error::Error;
 use crate::scalar::Real;
 use crate::target::Target;
-use crate::validate::{is_regular, pivot_limit};
-use core::hint::black_box;
+use crate::validate::{first_not_finite, is_regular, pivot_limit};
 
 macro_rules! names {
     ($($name:ident $text:literal)*) => {
@@ -82,13 +81,7 @@ impl<T: Real> Objection<T> {
 #[cold]
 #[inline(never)]
 fn not_finite<T: Real>(name: Name, values: &[T]) -> Objection<T> {
-    for (index, value) in values.iter().enumerate() {
-        // opaque to the compiler, which would write it out number by number
-        if !black_box(*value).is_finite() {
-            return Objection::new(name, index, *value);
-        }
-    }
-    Objection::NONE
+    first_not_finite(values).map_or(Objection::NONE, |(index, value)| Objection::new(name, index, value))
 }
 
 /// A pivot that is not regular.

@@ -5,9 +5,9 @@ pub use crate::scalar::finite::all_finite;
 use crate::error::Error;
 use crate::linear::copy;
 use crate::scalar::Real;
-use crate::scalar::finite::exceeds_and_finite;
 use crate::state::{Forces, RobotState, State};
 use crate::target::Target;
+use core::hint::black_box;
 
 /// A slice as an array, or [`Error::Length`].
 #[inline]
@@ -61,16 +61,23 @@ pub fn store_rows<T: Real, const C: usize>(
 /// [`Error::NotFinite`] with the first number that is NaN or infinite.
 #[inline]
 pub fn finite<T: Real>(quantity: &'static str, values: &[T]) -> Result<(), Error> {
-    if all_finite([values]) { Ok(()) } else { first_not_finite(quantity, values) }
+    if all_finite([values]) { Ok(()) } else { not_finite(quantity, values) }
 }
 
 #[cold]
 #[inline(never)]
-fn first_not_finite<T: Real>(quantity: &'static str, values: &[T]) -> Result<(), Error> {
-    match values.iter().enumerate().find(|(_, value)| !value.is_finite()) {
+fn not_finite<T: Real>(quantity: &'static str, values: &[T]) -> Result<(), Error> {
+    match first_not_finite(values) {
         None => Ok(()),
         Some((index, value)) => Err(Error::NotFinite { quantity, index, value: value.to_f64() }),
     }
+}
+
+/// Place and value of the first number that is NaN or infinite, for functions that are rarely called and to be small.
+#[inline]
+pub(crate) fn first_not_finite<T: Real>(values: &[T]) -> Option<(usize, T)> {
+    // opaque to the compiler, which would write it out number by number
+    values.iter().copied().enumerate().find(|(_, value)| !black_box(*value).is_finite())
 }
 
 /// [`finite`] of all numbers of a state.
@@ -138,10 +145,15 @@ pub fn is_regular<T: Real>(smallest: T) -> bool {
     smallest > pivot_limit()
 }
 
-/// Whether [`is_regular`] and all numbers are finite.
+/// Whether the pivot is regular and all numbers are finite: [`is_regular`] and [`all_finite`], or, where numbers are
+/// compared one by one, a single comparison, as 0 x is 0 where x is finite, else NaN.
 #[inline]
 pub fn is_regular_and_finite<T: Real, const N: usize>(smallest: T, slices: [&[T]; N]) -> bool {
-    exceeds_and_finite(smallest, pivot_limit(), slices)
+    if cfg!(not(target_arch = "arm")) {
+        return is_regular(smallest) && all_finite(slices);
+    }
+    let unless_finite = |sum, values: &[T]| values.iter().fold(sum, |sum, value| sum + *value * T::ZERO);
+    is_regular(slices.into_iter().fold(smallest, unless_finite))
 }
 
 /// [`Error::Singular`] unless the smallest relative pivot exceeds 8 ε.

@@ -40,10 +40,10 @@ use crate::control::Control;
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::linear::{copy, dot};
+use crate::read_again::read_again;
 use crate::scalar::Real;
 use crate::state::{Forces, State, StateVector, coordinates_mut, split, split_mut};
 use crate::validate::length;
-use core::hint::black_box;
 
 /// d/dt of an integrated vector, see [`vector_length`](crate::state::vector_length), under the joint and base torques of a
 /// control law; no other forces. Free bodies keep their twists.
@@ -62,8 +62,8 @@ pub fn derivative<T: Real, M: Model<T> + ?Sized>(
     rate: &mut [T],
     torques: &mut [T],
 ) -> Result<(), Error> {
-    // where registers are few: what a loop over stages reads of the model once, before it, would be on the stack
-    let model = if cfg!(target_arch = "arm") { black_box(model) } else { model };
+    // by every stage of a loop
+    let model = read_again(model);
     let joints = model.joints();
     length("state vector", x.len(), rate.len())?;
     let state = State::from_vector(x, joints)?;

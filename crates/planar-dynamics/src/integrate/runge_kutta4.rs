@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::linear::{add_scaled, copy};
+use crate::read_again::read_again;
 use crate::scalar::Real;
 use crate::validate::length;
 
@@ -59,10 +60,8 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
                 *stage = *x + next * *slope;
             }
         }
-        // where registers are few: numbers of the last stage, kept for this, would be on the stack
-        if cfg!(target_arch = "arm") {
-            core::hint::black_box(&mut *x);
-        }
+        // not kept from the last stage
+        read_again(&mut *x);
         add_scaled(x, step / T::constant(6.0), sum);
         Ok(())
     }

@@ -22,19 +22,3 @@ pub fn all_finite<T: Real, const N: usize>(slices: [&[T]; N]) -> bool {
     };
     slices.into_iter().fold(None, products).is_none_or(|sum| sum == T::ZERO)
 }
-
-/// Whether a number exceeds a limit, and those of all slices are finite: [`all_finite`] and a comparison, or less.
-#[inline]
-#[must_use]
-pub fn exceeds_and_finite<T: Real, const N: usize>(number: T, limit: T, slices: [&[T]; N]) -> bool {
-    if cfg!(not(target_arch = "arm")) {
-        return number > limit && all_finite(slices);
-    }
-    unless_finite(number, slices) > limit
-}
-
-/// The number where those of all slices are finite, else NaN.
-#[inline]
-fn unless_finite<T: Real, const N: usize>(number: T, slices: [&[T]; N]) -> T {
-    slices.into_iter().fold(number, |sum, values| values.iter().fold(sum, |sum, value| sum + *value * T::ZERO))
-}
