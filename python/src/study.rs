@@ -73,7 +73,7 @@ impl Study {
     }
 
     fn manifest_of(&self, part: &Part) -> RunManifest {
-        self.variant(part).map_or_else(|| self.manifest.clone(), |variant| self.manifest.of_variant(variant))
+        self.manifest.of_part(self.variant(part))
     }
 }
 

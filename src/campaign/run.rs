@@ -141,7 +141,7 @@ pub fn missing(campaign: &Campaign, folder: &Path) -> u64 {
     let absent = |block| {
         let cases = sweep.cases_of(block);
         let there = block_file::cases_said(folder, block, &origin).map_or(0..0, |[first, last]| first..last + 1);
-        cases.end - cases.start - there.end.min(cases.end).saturating_sub(there.start.max(cases.start))
+        sweep.count_of(block) - there.end.min(cases.end).saturating_sub(there.start.max(cases.start))
     };
     (0..sweep.blocks()).map(absent).sum()
 }
@@ -253,12 +253,11 @@ impl Worker<'_> {
         }
         self.tally.computed.fetch_add(1, Ordering::Relaxed);
         let sweep = &self.campaign.sweep;
-        let cases = sweep.cases_of(block);
         let complete = {
             let mut queue = self.lock();
             let rows = queue.open.entry(block).or_default();
             rows.push(row);
-            if rows.len() as u64 == cases.end - cases.start { queue.open.remove(&block) } else { None }
+            if rows.len() as u64 == sweep.count_of(block) { queue.open.remove(&block) } else { None }
         };
         let Some(mut rows) = complete else { return Ok(()) };
         rows.sort_by_key(|row| row.case);

@@ -57,15 +57,14 @@ fn overlaps(scenario: &Scenario, robots: Robots<'_>) -> Result<Vec<Warning>, Stu
     planned.clearance.on_overlap = OnOverlap::Report;
     // the approaches of cases differ by the targets' motions, and by which contacts end them
     let mut seen = Vec::new();
-    let is_new = |case: &Case| {
+    let mut is_new = |case: &Case| {
         let contacts: Vec<bool> = case.kinds.iter().flatten().map(Option::is_some).collect();
         let approach = (case.target_twists.clone(), contacts);
         let is_new = !seen.contains(&approach);
         seen.push(approach);
         is_new
     };
-    let is_planned: Vec<bool> = planned.cases.iter().map(is_new).collect();
-    let cases: Vec<usize> = (0..is_planned.len()).filter(|place| is_planned[*place]).collect();
+    let cases: Vec<usize> = (0..scenario.cases.len()).filter(|place| is_new(&scenario.cases[*place])).collect();
     planned.cases = cases.iter().map(|place| scenario.cases[*place].clone()).collect();
     // feedback needs the scenario's steps
     if by_end_effectors {

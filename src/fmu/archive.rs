@@ -101,6 +101,7 @@ mod tests {
         assert!(!is_same_with(&|entries| entries.push(entry("sources/c.c", "c"))));
         assert!(!is_same(Cursor::new(b"no archive"), &fmu));
     }
+
     /// A binary can be executed, and nothing else.
     #[test]
     fn binaries_can_be_executed() {

@@ -37,7 +37,7 @@ pub const FIGURES: &str = "figures";
 /// in the list of its summary, or the results of another scenario.
 #[must_use]
 pub fn objection(folder: &Path, names: &[String], scenario: &str) -> Option<String> {
-    let Some(summary) = read(&folder.join(SUMMARY)) else {
+    let Some(summary) = summary_in(folder) else {
         let runs: Vec<_> = names.iter().filter(|name| scenario_in(&folder.join(name)).is_some()).collect();
         if let [first, others @ ..] = runs.as_slice()
             && runs.len() == names.len()
@@ -52,7 +52,7 @@ pub fn objection(folder: &Path, names: &[String], scenario: &str) -> Option<Stri
     if found != scenario {
         return Some(format!("holds the results of `{found}`, not of `{scenario}`"));
     }
-    let listed: BTreeSet<_> = summary["files"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
+    let listed: BTreeSet<_> = files_of(&summary).collect();
     let foreign = names.iter().find_map(|name| foreign(folder, Path::new(name), &listed))?;
     Some(format!("has `{}`, which is not from a run of `{scenario}`", foreign.display()))
 }
@@ -60,22 +60,19 @@ pub fn objection(folder: &Path, names: &[String], scenario: &str) -> Option<Stri
 /// The scenario whose results are in a folder, and not in folders in it.
 #[must_use]
 pub fn scenario_in(folder: &Path) -> Option<String> {
-    Some(read(&folder.join(SUMMARY))?["scenario"].as_str()?.to_owned())
+    Some(summary_in(folder)?["scenario"].as_str()?.to_owned())
 }
 
-/// The command that has made the results in a folder, and the hash of its scenario's text.
+/// The summary of the results in a folder: a JSON object with scenario and cases.
 #[must_use]
-pub fn origin_in(folder: &Path) -> Option<[String; 2]> {
-    let summary = read(&folder.join(SUMMARY))?;
-    let text = |key: &str| summary["run"][key].as_str().map(str::to_owned);
-    Some([text("command")?, text("scenario_sha256")?])
+pub fn summary_in(folder: &Path) -> Option<Value> {
+    let summary: Value = serde_json::from_slice(&regular_file::read(&folder.join(SUMMARY)).ok()?).ok()?;
+    (summary["scenario"].is_string() && summary["cases"].is_array()).then_some(summary)
 }
 
-/// The files of the results in a folder, as their summary lists them.
-#[must_use]
-pub fn files_in(folder: &Path) -> Vec<String> {
-    let summary = read(&folder.join(SUMMARY)).unwrap_or_default();
-    summary["files"].as_array().into_iter().flatten().filter_map(Value::as_str).map(str::to_owned).collect()
+/// The files that a summary lists.
+pub fn files_of(summary: &Value) -> impl Iterator<Item = &str> {
+    summary["files"].as_array().into_iter().flatten().filter_map(Value::as_str)
 }
 
 /// Removes the results in a folder: the summary, without which they are none, and the files that it lists.
@@ -83,11 +80,8 @@ pub fn files_in(folder: &Path) -> Vec<String> {
 /// # Errors
 /// [`OutputError`] with the reason.
 pub fn remove(folder: &Path) -> Result<(), OutputError> {
-    if scenario_in(folder).is_none() {
-        return Ok(());
-    }
-    let listed = files_in(folder);
-    let files = listed.iter().map(Path::new);
+    let Some(summary) = summary_in(folder) else { return Ok(()) };
+    let files = files_of(&summary).map(Path::new);
     // no run lists a file beside its folder
     let inside = |file: &&Path| file.components().all(|part| matches!(part, Component::Normal(_)));
     for file in [Path::new(SUMMARY)].into_iter().chain(files.filter(inside)) {
@@ -100,12 +94,6 @@ pub fn remove(folder: &Path) -> Result<(), OutputError> {
     // where it has nothing else in it
     let _ = fs::remove_dir(folder.join(FIGURES));
     Ok(())
-}
-
-/// A summary: a JSON object with scenario and cases.
-fn read(path: &Path) -> Option<Value> {
-    let summary: Value = serde_json::from_slice(&regular_file::read(path).ok()?).ok()?;
-    (summary["scenario"].is_string() && summary["cases"].is_array()).then_some(summary)
 }
 
 /// What is not listed of a file or folder, by its path in the results.

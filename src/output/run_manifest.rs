@@ -100,10 +100,10 @@ impl RunManifest {
         }
     }
 
-    /// That of a case with values of its own in the same run: with its layout and its phases.
+    /// That of a part of the same run: of a case with values of its own, with its layout and its phases.
     #[must_use]
-    pub fn of_variant(&self, variant: &Variant) -> Self {
-        let Variant { scenario, texts: [_, layout], .. } = variant;
+    pub fn of_part(&self, variant: Option<&Variant>) -> Self {
+        let Some(Variant { scenario, texts: [_, layout], .. }) = variant else { return self.clone() };
         Self {
             layout_toml: layout.clone(),
             layout_sha256: scenario.layout.sha256(),

@@ -13,7 +13,7 @@ use crate::laws::RegisteredLaw;
 use crate::output::console::table_of_parts;
 use crate::output::html_report::write_report;
 use crate::output::result_folder::ResultFolder;
-use crate::output::run_folder::{REPORT, SUMMARY, files_in, origin_in, scenario_in};
+use crate::output::run_folder::{REPORT, SUMMARY, files_of, summary_in};
 use crate::output::run_manifest::RunManifest;
 use crate::output::study_part::StudyPart;
 use crate::output::summary::summary_of_parts;
@@ -82,7 +82,7 @@ impl Task<'_> {
             let result = study_registered(scenario, &|| model.clone_box(), self.laws, sample, &mut progress);
             progress.finish();
             let study = result.map_err(|error| study_error(&error, scenario, variant, &source.scenario))?;
-            let manifest = variant.map_or_else(|| manifest.clone(), |variant| manifest.of_variant(variant));
+            let manifest = manifest.of_part(variant);
             let study = Cow::Owned(study);
             Ok(StudyPart { scenario, variant, dynamics: choice.engine.name(), study, manifest })
         });
@@ -121,7 +121,7 @@ impl Task<'_> {
         note(format_args!("{named}scenario: {}, sha256 {}", source.scenario.file, &hash[..12]));
         for (scenario, variant) in scenario.parts() {
             let of = variant.map_or_else(|| named.clone(), |variant| format!("{named}case `{}`: ", variant.name()));
-            let manifest = variant.map_or_else(|| manifest.clone(), |variant| manifest.of_variant(variant));
+            let manifest = manifest.of_part(variant);
             let (layout, hash) = (&scenario.layout.name, &manifest.layout_sha256[..12]);
             note(format_args!("{of}robot: {layout} of {}, sha256 {hash}", source.layout.file));
             for phase in &manifest.phases {
@@ -132,7 +132,7 @@ impl Task<'_> {
     }
 
     fn note_files(&self, summary: &Value) {
-        for file in summary["files"].as_array().into_iter().flatten().filter_map(Value::as_str) {
+        for file in files_of(summary) {
             let path = self.folder.path().join(file);
             let size = fs::metadata(&path).map_or(0, |data| data.len());
             note(format_args!("{}{}: {size} bytes", self.named, path.display()));
@@ -167,8 +167,10 @@ impl Task<'_> {
             serde_json::to_writer_pretty(&mut *to, &summary)?;
             writeln!(to)
         })?;
-        let other = self.other_file(summary["run"]["scenario_sha256"].as_str().unwrap_or_default());
-        let dropped = self.dropped(&summary);
+        // of another scenario, the user has asked for it by --force
+        let earlier = summary_in(folder.path()).filter(|earlier| earlier["scenario"] == self.scenario.name.as_str());
+        let other = earlier.as_ref().and_then(|earlier| self.other_file(earlier, &summary));
+        let dropped = earlier.as_ref().map_or_else(Vec::new, |earlier| self.dropped(earlier, &summary));
         folder.commit(staged, SUMMARY)?;
         if let Some(command) = other {
             let (named, folder) = (&self.named, folder.path().display());
@@ -180,30 +182,22 @@ impl Task<'_> {
         Ok(summary)
     }
 
-    /// The files in the folder that are results of the same scenario, and that these results have not.
-    fn dropped(&self, summary: &Value) -> Vec<String> {
-        let folder = self.folder.path();
-        // of another scenario, the user has asked for it by --force
-        if scenario_in(folder).is_none_or(|name| name != self.scenario.name) {
-            return Vec::new();
-        }
-        let now: Vec<_> = summary["files"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
-        let mut dropped = files_in(folder);
-        dropped.retain(|file| !now.contains(&file.as_str()) && folder.join(file).is_file());
-        dropped
+    /// The files in the folder that are results of an earlier run, and that these results have not.
+    fn dropped(&self, earlier: &Value, summary: &Value) -> Vec<String> {
+        let (folder, now) = (self.folder.path(), files_of(summary).collect::<Vec<_>>());
+        let dropped = files_of(earlier).filter(|file| !now.contains(file) && folder.join(file).is_file());
+        dropped.map(str::to_owned).collect()
     }
 
-    /// The command whose results are in the folder, where it had another file of the same scenario's name: one that was
-    /// edited since has the same path.
-    fn other_file(&self, sha256: &str) -> Option<String> {
-        let folder = self.folder.path();
-        // of another scenario, the user has asked for it by --force
-        scenario_in(folder).filter(|name| *name == self.scenario.name)?;
-        let [command, before] = origin_in(folder)?;
+    /// The command of an earlier run, where that had another file of the same scenario's name: one that was edited since has
+    /// the same path.
+    fn other_file(&self, earlier: &Value, summary: &Value) -> Option<String> {
+        let command = earlier["run"]["command"].as_str()?;
+        let [before, now] = [earlier, summary].map(|summary| summary["run"]["scenario_sha256"].as_str());
         let plain = |path: &Path| path.components().collect::<PathBuf>();
         let is_this = |word: &String| plain(Path::new(word)) == plain(self.path);
-        let is_other = before != sha256 && !shlex::split(&command)?.iter().any(is_this);
-        is_other.then_some(command)
+        let is_other = before? != now? && !shlex::split(command)?.iter().any(is_this);
+        is_other.then(|| command.to_owned())
     }
 }
 
