@@ -12,7 +12,7 @@ use std::process::Command;
 use tempfile::TempDir;
 
 fn standalone(graph: &Graph) -> String {
-    let module = Module { standalone: true, item: false, fused: false, source: "a", command: "b" };
+    let module = Module { standalone: true, item: false, fused: false, paired: false, source: "a", command: "b" };
     module.render(graph).unwrap_or_else(|e| panic!("{e}"))
 }
 

@@ -140,7 +140,7 @@ pub enum Targets {
     SinCos(String, String),
 }
 
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Hash)]
 #[serde(rename_all = "snake_case")]
 pub enum Operation {
     Copy,
@@ -191,7 +191,6 @@ impl Graph {
     }
 }
 
-#[cfg(feature = "prove")]
 impl Variable {
     /// The name of an element, row-major, in statements: `joint_angles[1]`, `contacts[0][1]`.
     pub fn element(&self, index: usize) -> String {

@@ -76,7 +76,7 @@ pub fn render_all(codegen: &Path, out: &Path, enabled: &dyn Fn(&str) -> bool) ->
         if enabled(name) || has_files {
             let graph = fresh_in(codegen, ["layouts", "graphs"], name)?;
             if enabled(name) {
-                write(&out.join(format!("{name}.rs")), &rendered(&graph, codegen, name, is_fused())?)?;
+                write(&out.join(format!("{name}.rs")), &rendered(&graph, codegen, name, [is_fused(), has_vectors()])?)?;
             }
             carried.push(carried_graph(&graph, codegen, "graphs", name)?);
         }
@@ -117,12 +117,12 @@ fn fresh_in(codegen: &Path, [layouts, graphs]: [&str; 2], name: &str) -> Result<
 /// # Errors
 /// As [`render_all`].
 pub fn render_one(codegen: &Path, name: &str, fused: bool) -> Result<String, String> {
-    rendered(&fresh_in(codegen, ["layouts", "graphs"], name)?, codegen, name, fused)
+    rendered(&fresh_in(codegen, ["layouts", "graphs"], name)?, codegen, name, [fused, has_vectors()])
 }
 
-fn rendered(graph: &Graph, codegen: &Path, name: &str, fused: bool) -> Result<String, String> {
+fn rendered(graph: &Graph, codegen: &Path, name: &str, [fused, paired]: [bool; 2]) -> Result<String, String> {
     let (source, command) = (format!("codegen/graphs/{name}.json"), derivation(name));
-    let module = Module { standalone: false, item: true, fused, source: &source, command: &command };
+    let module = Module { standalone: false, item: true, fused, paired, source: &source, command: &command };
     let path = graph_path(codegen, "graphs", name);
     module.render(graph).map_err(|e| format!("{}: {e}; generate it again: {command}", path.display()))
 }
@@ -140,6 +140,12 @@ fn derivation(name: &str) -> String {
 #[must_use]
 pub fn is_fused() -> bool {
     is_on("FUSED")
+}
+
+/// Whether the processor that is built for has vectors of two `f64`, whatever features it has beside them.
+#[must_use]
+pub fn has_vectors() -> bool {
+    std::env::var("CARGO_CFG_TARGET_ARCH").is_ok_and(|name| ["x86_64", "aarch64"].contains(&name.as_str()))
 }
 
 /// Whether the crate that is built has a feature, and it is on; the name in capitals.

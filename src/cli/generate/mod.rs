@@ -208,7 +208,7 @@ fn modules(graph: &Graph, layout: &Layout, arguments: &Arguments) -> Result<Vec<
     let texts = match arguments.language {
         Language::Rust => {
             let standalone = arguments.standalone;
-            let module = Module { standalone, item: false, fused: false, source: &source, command: &command };
+            let module = Module { standalone, item: false, fused: false, paired: false, source: &source, command: &command };
             module.render(graph).map(|text| vec![text])
         }
         Language::C => {

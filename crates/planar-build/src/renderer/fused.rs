@@ -22,7 +22,12 @@ pub struct MultiplyAdd<'a> {
 /// one contains. `results` are used after the stage.
 ///
 /// Of two products in a sum the one that is known later is fused, for the other has been computed when it comes.
-pub fn fuse<'a>(statements: &'a [Statement], results: &[&str]) -> HashMap<usize, Option<MultiplyAdd<'a>>> {
+/// `sources` are the names that statements assign of which a name is made.
+pub fn fuse<'a>(
+    statements: &'a [Statement],
+    results: &[&str],
+    sources: &dyn Fn(&'a str) -> Vec<&'a str>,
+) -> HashMap<usize, Option<MultiplyAdd<'a>>> {
     let mut uses: HashMap<&str, usize> = HashMap::new();
     let operands = statements.iter().flat_map(|statement| [&statement.a, &statement.b]).filter_map(Operand::name);
     operands.chain(results.iter().copied()).for_each(|name| *uses.entry(name).or_default() += 1);
@@ -34,7 +39,10 @@ pub fn fuse<'a>(statements: &'a [Statement], results: &[&str]) -> HashMap<usize,
     let mut times: HashMap<&str, u32> = HashMap::new();
     let mut fused = HashMap::new();
     for (index, statement) in statements.iter().enumerate() {
-        let time = |operand: &Operand| operand.name().and_then(|name| times.get(name)).copied().unwrap_or(0);
+        let time = |operand: &'a Operand| {
+            let sources = operand.name().map_or(Vec::new(), sources);
+            sources.into_iter().filter_map(|name| times.get(name)).copied().max().unwrap_or(0)
+        };
         let [a, b] = [time(&statement.a), time(&statement.b)];
         let latency = LATENCIES.iter().find(|(operation, _)| *operation == statement.operation);
         let mut known = a.max(b) + latency.map_or(LATENCY, |(_, latency)| *latency);

@@ -5,19 +5,23 @@ mod composites;
 mod doc_text;
 mod fused;
 mod needed;
+mod pairs;
 mod statements;
+mod symmetry;
 mod syntax;
 mod wrap;
 
 pub use c::{CModule, CText, CoSimulation, CoSimulationVariable, Role};
 
-use crate::format::{Family, Function, Graph, Parameter, ReferenceState, Variable};
+use crate::format::{Family, Function, Graph, Operand, Parameter, ReferenceState, Variable};
 use composites::{merged_links, steps};
+use pairs::{Names, Stage};
 use planar_dynamics::standalone::PARTS;
 use planar_layout::diagnostic::printable;
 use planar_layout::layout::sha256;
 use serde_json::{Value, json};
 use statements::{Scope, bindings, nested};
+use symmetry::Symmetry;
 use syntax::Syntax;
 use tera::{Context, Tera};
 
@@ -46,6 +50,9 @@ pub struct Module<'a> {
     pub item: bool,
     /// Whether products and sums are fused, as the feature `fused` of `planar-capture` wants it.
     pub fused: bool,
+    /// Whether arms of as many links are computed in pairs, where the module uses `planar_capture`: for processors that
+    /// have vectors.
+    pub paired: bool,
     /// The source that its header names.
     pub source: &'a str,
     /// The command that its header names, which generates it again.
@@ -72,14 +79,15 @@ impl Module<'_> {
     }
 }
 
-/// A text of the core without what it has for users of the core alone: its example, and traits of other crates.
+/// A text of the core without what it has for users of the core alone: its example, traits of other crates, and pairs.
 fn alone(text: &str) -> String {
     let without_example = text.split_once("//!\n//! # Example\n").map(|(before, example)| {
         let after = example.splitn(3, "//! ```").nth(2).unwrap_or_default();
         format!("{before}{}", after.strip_prefix('\n').unwrap_or(after))
     });
     let text = without_example.as_deref().unwrap_or(text);
-    let is_foreign = |line: &&str| line.trim_start().starts_with("#[cfg_attr(feature = \"serde\"");
+    let foreign = ["#[cfg_attr(feature = \"serde\"", "use super::pair::", "super::pair::"];
+    let is_foreign = |line: &&str| foreign.iter().any(|start| line.trim_start().starts_with(start));
     let kept: Vec<&str> = text.lines().filter(|line| !is_foreign(line)).collect();
     kept.join("\n") + "\n"
 }
@@ -130,6 +138,11 @@ fn context(graph: &Graph, module: &Module<'_>) -> Value {
     let joints: usize = links.iter().sum();
     let constants: Vec<&str> = graph.constants.values.iter().map(|constant| constant.name.as_str()).collect();
     let set_up = Scope::parameters(graph, Syntax::Rust).lines(&[], &graph.constants.statements, &constants);
+    let symmetry = if module.paired { Symmetry::of(graph) } else { Symmetry::default() };
+    let order = symmetry.side_by_side(&constants);
+    let constant = |name: &&str| graph.constants.values.iter().find(|constant| constant.name == *name);
+    let families: Vec<_> =
+        graph.families.iter().map(|family| render_family(graph, family, module.fused, &symmetry)).collect();
     json!({
         "source": printable(module.source),
         "command": printable(module.command),
@@ -146,10 +159,11 @@ fn context(graph: &Graph, module: &Module<'_>) -> Value {
         "operations": doc_text::operations(graph),
         "parameter_names": graph.parameters.iter().map(|parameter| &parameter.name).collect::<Vec<_>>(),
         "parameters": graph.parameters.iter().map(parameter).collect::<Vec<_>>(),
-        "constants": {"statements": body(&set_up), "values": graph.constants.values, "names": constants},
+        "constants": {"statements": body(&set_up), "values": order.iter().filter_map(constant).collect::<Vec<_>>(), "names": constants},
         "steps": steps(),
         "merged": merged_links(graph),
-        "families": graph.families.iter().map(|family| render_family(graph, family, module.fused)).collect::<Vec<_>>(),
+        "has_pairs": families.iter().any(|(_, has_pairs)| *has_pairs),
+        "families": families.into_iter().map(|(family, _)| family).collect::<Vec<_>>(),
     })
 }
 
@@ -158,32 +172,58 @@ fn body(lines: &[String]) -> String {
     indented(&lines.join("\n"), 8).trim_end().to_owned()
 }
 
-fn render_family(graph: &Graph, family: &Family, is_fused: bool) -> Value {
+/// A family, and whether anything of it is paired.
+fn render_family(graph: &Graph, family: &Family, is_fused: bool, symmetry: &Symmetry) -> (Value, bool) {
     let Family { name, description, configuration, functions } = family;
+    let mut symmetry = symmetry.clone();
+    let stage =
+        Stage::new(&mut symmetry, &configuration.sections, &configuration.statements, &[], &Names::default());
     let values: Vec<&str> = configuration.values.iter().map(String::as_str).collect();
-    let lines = Scope::constants(graph, Syntax::Rust, is_fused).lines(
-        &configuration.sections,
-        &configuration.statements,
-        &values,
-    );
-    let call = Scope::call(graph, &configuration.values, is_fused);
-    let functions: Vec<Value> = functions.iter().map(|function| render_function(graph, function, &call)).collect();
+    let scope = Scope::constants(graph, Syntax::Rust, is_fused).with_pairs(&stage.names);
+    let lines = scope.lines(&stage.sections, &stage.statements, &values);
+    let (fields, names) = stage.names.fields(&values);
+    let field = |name: &&str| {
+        let is_pair = stage.names.is_pair(name);
+        let text = scope.operand_named(name);
+        json!({
+            "name": name,
+            "type": if is_pair { "Pair<T>" } else { "T" },
+            "text": if text == **name { text } else { format!("{name}: {text}") },
+        })
+    };
+    let shown: Vec<Value> = fields.iter().map(field).collect();
+    let functions: Vec<(Value, bool)> = (functions.iter())
+        .map(|function| render_function(graph, function, &fields, &names, is_fused, &symmetry))
+        .collect();
+    let has_pairs = stage.names.has_pairs() || functions.iter().any(|(_, has_pairs)| *has_pairs);
+    let functions: Vec<Value> = functions.into_iter().map(|(function, _)| function).collect();
     let needs_model = functions.iter().any(|function| function["needs_model"] == true);
-    json!({
+    let family = json!({
         "name": name,
         "type": format!("{}Configuration", camel_case(name)),
         "description": description,
         "statements": body(&[bindings(&lines, "self", Syntax::Rust), lines].concat()),
-        "values": values,
+        "values": shown,
         "needs_model": needs_model,
         "functions": functions,
-    })
+    });
+    (family, has_pairs)
 }
 
-fn render_function<'a>(graph: &'a Graph, function: &'a Function, scope: &Scope<'a>) -> Value {
+fn render_function(
+    graph: &Graph,
+    function: &Function,
+    fields: &[&str],
+    names: &Names,
+    is_fused: bool,
+    symmetry: &Symmetry,
+) -> (Value, bool) {
     let Function { name, outputs, sections, statements, .. } = function;
-    let results: Vec<&str> = outputs.iter().flat_map(|output| &output.elements).filter_map(|e| e.name()).collect();
-    let mut lines = scope.lines(sections, statements, &results);
+    let pairs: Vec<_> = outputs.iter().flat_map(|output| counterparts(symmetry, output)).collect();
+    let stage = Stage::new(&mut symmetry.clone(), sections, statements, &pairs, names);
+    let scope = Scope::call(graph, fields, is_fused).with_pairs(&stage.names);
+    let results: Vec<&str> = outputs.iter().flat_map(|output| &output.elements).filter_map(Operand::name).collect();
+    let mut lines = scope.lines(&stage.sections, &stage.statements, &results);
     let arrays = outputs.iter().map(|output| (output, scope.array(output)));
     let single = outputs.len() == 1;
     if single {
@@ -198,7 +238,7 @@ fn render_function<'a>(graph: &'a Graph, function: &'a Function, scope: &Scope<'
     let of_call = |input: &&Value| input["name"] != "base_pose" && input["name"] != "joint_angles";
     let call_inputs: Vec<&Value> = inputs.iter().filter(of_call).collect();
     let call_names: Vec<&Value> = call_inputs.iter().map(|input| &input["name"]).collect();
-    json!({
+    let rendered = json!({
         "name": name,
         "docs": doc_text::function(function),
         "struct": (!single).then(|| camel_case(name)),
@@ -209,7 +249,15 @@ fn render_function<'a>(graph: &'a Graph, function: &'a Function, scope: &Scope<'
         "call_names": call_names,
         "needs_model": !bindings.is_empty(),
         "statements": body(&[bindings, lines].concat()),
-    })
+    });
+    (rendered, stage.names.has_pairs())
+}
+
+/// The elements of an output that are computed, with those of the other arms, each once.
+fn counterparts<'a>(symmetry: &Symmetry, output: &'a Variable) -> Vec<(&'a str, &'a str)> {
+    let others = symmetry.elements(&output.shape).into_iter().enumerate().filter(|(index, other)| index < other);
+    let names = others.map(|(index, other)| [index, other].map(|index| output.elements.get(index)));
+    names.filter_map(|[a, b]| Some((a?.name()?, b?.name()?))).collect()
 }
 
 /// Inputs, functions and states of the module's own test.

@@ -1,6 +1,7 @@
 //! Statements of a graph as text: how a name is reached from the body of a function, and what is written as one line.
 
 use super::fused::{MultiplyAdd, fuse};
+use super::pairs::{Half, Names};
 use super::syntax::{Place, Syntax};
 use crate::format::{Graph, Operand, Operation, Statement, Variable};
 use std::collections::{HashMap, HashSet};
@@ -25,6 +26,8 @@ pub struct Scope<'a> {
     configuration: HashSet<&'a str>,
     /// Whether products and sums are fused.
     is_fused: bool,
+    /// What is paired; in Rust alone.
+    pairs: Option<&'a Names>,
 }
 
 /// An expression, and how tightly its outermost operator binds.
@@ -66,9 +69,14 @@ impl<'a> Scope<'a> {
     }
 
     /// Of a call, with the values that it reads of the configuration.
-    pub fn call(graph: &'a Graph, configuration: &'a [String], is_fused: bool) -> Self {
-        let configuration = configuration.iter().map(String::as_str).collect();
+    pub fn call(graph: &'a Graph, configuration: &[&'a str], is_fused: bool) -> Self {
+        let configuration = configuration.iter().copied().collect();
         Self { configuration, ..Self::constants(graph, Syntax::Rust, is_fused) }
+    }
+
+    /// With names of pairs.
+    pub fn with_pairs(self, names: &'a Names) -> Self {
+        Self { pairs: Some(names), ..self }
     }
 
     /// A stage's lines, with the name of each section before it, in blocks of [`BLOCK`] statements where there are
@@ -81,20 +89,23 @@ impl<'a> Scope<'a> {
         statements: &'a [Statement],
         results: &[&'a str],
     ) -> Vec<String> {
-        let lines = self.statements(sections, statements, results);
+        let results: Vec<&str> = results.iter().flat_map(|name| self.sources(name)).collect();
+        let lines = self.statements(sections, statements, &results);
         if self.syntax != Syntax::Rust || lines.len() <= BLOCK {
             return texts(self.syntax, &lines);
         }
-        let mut later: HashSet<&str> = results.iter().copied().collect();
+        let mut later: HashSet<&str> = results.into_iter().collect();
         let mut blocks = Vec::new();
         // from the last, so that what is used later is known
         for block in lines.chunks(BLOCK).rev() {
             let leaving: Vec<&str> =
                 block.iter().flat_map(|l| &l.targets).copied().filter(|n| later.contains(n)).collect();
-            let leaving = leaving.join(", ");
+            let (pairs, numbers): (Vec<&str>, Vec<&str>) = leaving.into_iter().partition(|name| self.is_pair(name));
+            let arrays = [numbers, pairs].map(|names| format!("[{}]", names.join(", ")));
+            let leaving = if arrays[1] == "[]" { arrays[0].clone() } else { format!("({})", arrays.join(", ")) };
             let inside = texts(self.syntax, block).into_iter().map(|line| format!("    {line}"));
-            let first = format!("let [{leaving}] = {{");
-            let last = [format!("    [{leaving}]"), "};".to_owned()];
+            let first = format!("let {leaving} = {{");
+            let last = [format!("    {leaving}"), "};".to_owned()];
             blocks.push([first].into_iter().chain(inside).chain(last).collect::<Vec<_>>());
             later.extend(block.iter().flat_map(|line| &line.names));
         }
@@ -117,8 +128,13 @@ impl<'a> Scope<'a> {
                 uses.entry(name).or_default().push(section(index));
             }
         }
-        let fused = if self.is_fused { fuse(statements, results) } else { HashMap::new() };
-        let results: HashSet<&str> = results.iter().copied().collect();
+        // where a half of a pair is used, or a pair of two numbers, the expression has to have a name
+        let operands = statements.iter().flat_map(|statement| [&statement.a, &statement.b]).filter_map(Operand::name);
+        let parts = operands.flat_map(|name| self.sources(name).into_iter().filter(move |source| *source != name));
+        let results: Vec<&str> = results.iter().copied().chain(parts).collect();
+        let sources = |name: &'a str| self.sources(name);
+        let fused = if self.is_fused { fuse(statements, &results, &sources) } else { HashMap::new() };
+        let results: HashSet<&str> = results.into_iter().collect();
         let is_used = |name: &str| uses.contains_key(name) || results.contains(name);
         let bound = |targets: Vec<&'a str>| -> Vec<&'a str> {
             targets.into_iter().map(|name| if is_used(name) { name } else { "_" }).collect()
@@ -129,7 +145,7 @@ impl<'a> Scope<'a> {
         for (index, statement) in statements.iter().enumerate() {
             let expression = match fused.get(&index) {
                 None => self.expression(statement, &mut inlined),
-                Some(Some(sum)) => self.multiply_add(sum, &mut inlined),
+                Some(Some(sum)) => self.multiply_add(sum, statement, &mut inlined),
                 Some(None) => continue,
             };
             let (section, targets) = (section(index), statement.targets.names());
@@ -162,17 +178,38 @@ impl<'a> Scope<'a> {
         operand.name().and_then(|name| inlined.remove(name)).unwrap_or_else(|| Expression {
             text: self.operand(operand),
             precedence: Precedence::Atom,
-            names: operand.name().into_iter().collect(),
+            names: operand.name().map_or(Vec::new(), |name| self.sources(name)),
         })
     }
 
-    fn multiply_add(&self, sum: &MultiplyAdd<'a>, inlined: &mut HashMap<&'a str, Expression<'a>>) -> Expression<'a> {
+    /// The names that statements assign of which a name is made: its own, that of its pair, or those of its two parts.
+    fn sources(&self, name: &'a str) -> Vec<&'a str> {
+        let Some(names) = self.pairs else { return vec![name] };
+        let source = |name: &'a str| names.halves.get(name).map_or(name, |(pair, _)| pair);
+        match names.joined.get(name) {
+            Some(parts) => parts.iter().filter_map(Operand::name).map(source).collect(),
+            None => vec![source(name)],
+        }
+    }
+
+    fn is_pair(&self, name: &str) -> bool {
+        self.pairs.is_some_and(|names| names.is_pair(name))
+    }
+
+    fn multiply_add(
+        &self,
+        sum: &MultiplyAdd<'a>,
+        statement: &Statement,
+        inlined: &mut HashMap<&'a str, Expression<'a>>,
+    ) -> Expression<'a> {
         let [a, b, addend] = [sum.a, sum.b, sum.addend].map(|operand| self.inline(operand, inlined));
         let signed = |expression: &Expression<'_>, is_negative: bool| {
             if is_negative { format!("-{}", expression.within(Precedence::Sign)) } else { expression.text.clone() }
         };
         let (first, last) = (signed(&a, sum.is_product_negative), signed(&addend, sum.is_addend_negative));
-        let text = format!("T::mul_add({first}, {}, {last})", b.text);
+        let is_pair = statement.targets.names().into_iter().any(|name| self.is_pair(name));
+        let scalar = if is_pair { "Pair" } else { "T" };
+        let text = format!("{scalar}::mul_add({first}, {}, {last})", b.text);
         Expression { text, precedence: Precedence::Atom, names: [a.names, b.names, addend.names].concat() }
     }
 
@@ -196,10 +233,33 @@ impl<'a> Scope<'a> {
     }
 
     pub fn operand(&self, operand: &Operand) -> String {
+        let joined = self.pairs.zip(operand.name()).and_then(|(names, name)| names.joined.get(name));
+        match joined.map(|parts| parts.each_ref().map(|part| self.part(part))) {
+            Some([a, b]) if a == b => format!("Pair::both({a})"),
+            Some([a, b]) => format!("Pair::new({a}, {b})"),
+            None => self.part(operand),
+        }
+    }
+
+    /// A value by its name.
+    pub fn operand_named(&self, name: &str) -> String {
+        self.part(&Operand::Name(name.to_owned()))
+    }
+
+    /// An operand that is one number, or a pair that has a name.
+    fn part(&self, operand: &Operand) -> String {
         let name = match operand {
             Operand::Number(number) => return self.syntax.number(*number),
             Operand::Name(name) => name.as_str(),
         };
+        if let Some((pair, half)) = self.pairs.and_then(|names| names.halves.get(name)) {
+            let half = if *half == Half::First { "first" } else { "second" };
+            return format!("{}.{half}", self.named(pair));
+        }
+        self.named(name)
+    }
+
+    fn named(&self, name: &str) -> String {
         let fields = [
             (&self.parameters, Place::Parameters),
             (&self.constants, Place::Constants),
@@ -273,9 +333,9 @@ fn texts(syntax: Syntax, lines: &[Line<'_>]) -> Vec<String> {
     texts
 }
 
-/// Whether a name is a letter and a number: that of an intermediate value.
+/// Whether a name is a letter and a number, that of an intermediate value, or a pair's of two of these.
 fn is_numbered(name: &str) -> bool {
-    name.len() > 1 && name.chars().skip(1).all(|c| c.is_ascii_digit())
+    name.split('_').all(|part| part.len() > 1 && part.chars().skip(1).all(|c| c.is_ascii_digit()))
 }
 
 /// Elements as a nested array literal of a shape; a scalar is itself.

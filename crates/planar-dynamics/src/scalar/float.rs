@@ -78,6 +78,8 @@ macro_rules! scalar {
             fn minimum(self, other: Self) -> Self {
                 if self < other || self.is_nan() { self } else { other }
             }
+
+            super::pair::at_once!($float);
         }
     };
 }

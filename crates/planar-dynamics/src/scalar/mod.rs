@@ -21,6 +21,7 @@ mod float;
 #[doc(hidden)]
 pub mod lane;
 mod number;
+mod pair;
 mod portable;
 mod real;
 pub(crate) mod sine;
@@ -31,6 +32,7 @@ pub(crate) mod sine_lanes;
 
 pub use dual::Dual;
 pub use number::Scalar;
+pub use pair::Pair;
 pub use portable::{sqrt_f32, sqrt_f64};
 pub use real::Real;
 pub use sine::{sin_cos_f32, sin_cos_f64};

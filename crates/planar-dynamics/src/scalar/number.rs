@@ -1,5 +1,6 @@
 //! The trait of numbers that generated code computes with.
 
+use super::pair::Pair;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number that generated code computes with: `f32`, `f64`, SIMD lanes, dual numbers.
@@ -43,4 +44,6 @@ pub trait Scalar:
     /// The smaller of two values; NaN where either is, so that it shows in the smallest of many.
     #[must_use]
     fn minimum(self, other: Self) -> Self;
+
+    super::pair::number_by_number!(add_pairs + sub_pairs - mul_pairs * div_pairs /);
 }
