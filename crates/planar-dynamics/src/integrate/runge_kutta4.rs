@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::linear::{add_scaled, copy};
-use crate::read_again::read_again;
+use crate::read_again::{from_memory, read_again};
 use crate::scalar::Real;
 use crate::validate::length;
 
@@ -54,6 +54,7 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
             [(T::ZERO, T::ONE, half), (half, two, half), (half, two, step), (step, T::ONE, T::ZERO)]
         {
             derivative(time + at, stage, slope)?;
+            let slope = from_memory(slope);
             let places = sum.iter_mut().zip(stage.iter_mut());
             for ((sum, stage), (x, slope)) in places.zip(x.iter().zip(slope.iter())) {
                 *sum += weight * *slope;
