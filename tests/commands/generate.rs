@@ -4,8 +4,8 @@
 
 use crate::command;
 use crate::derivation::python;
-use planar_capture::build::Module;
 use planar_capture::build::graph::{self, Graph, GraphError};
+use planar_capture::build::{Arithmetic, Module};
 use planar_capture::build::{render_to, verify};
 use planar_capture::generate::{GenerateError, Proved, complete, prove};
 use planar_capture::layout::Layout;
@@ -431,12 +431,20 @@ fn a_layout_has_the_name_of_its_file() {
 
 #[test]
 fn a_module_is_the_same_every_time() {
-    let (layout, text) = shipped("single_arm_2r");
+    let (layout, text) = shipped("dual_arm_2r");
     let graph = complete(&text, &layout).unwrap_or_else(|e| panic!("{e}")).graph;
-    for standalone in [false, true] {
-        let module = Module { standalone, item: false, fused: false, source: "a", command: "b" };
+    for [standalone, is_paired] in [[false, false], [true, false], [false, true]] {
+        let module = Module {
+            standalone,
+            item: false,
+            arithmetic: Arithmetic { is_paired, ..Arithmetic::default() },
+            source: "a",
+            command: "b",
+        };
         let [first, second] = [0, 1].map(|_| module.render(&graph).unwrap_or_else(|e| panic!("{e}")));
         assert!(first == second);
+        // of arms in pairs standalone modules have nothing
+        assert_eq!([first.contains("Pair::new("), first.contains("Pair")], [is_paired; 2]);
     }
 }
 

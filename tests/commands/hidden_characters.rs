@@ -1,7 +1,7 @@
 //! Characters that are not shown, or that reorder what is shown, in the names and texts of layouts, scenarios and graphs.
 
-use planar_build::Module;
 use planar_build::graph;
+use planar_build::{Arithmetic, Module};
 use planar_capture::diagnostic::{is_hidden, printable};
 use planar_capture::layout::Layout;
 use planar_capture::registry;
@@ -84,7 +84,8 @@ fn changed(pointer: &str, value: &Value) -> Result<String, String> {
     let layout = Layout::read(&file("examples/own_robot/layouts/inspector.toml")).unwrap_or_else(|r| panic!("{r}"));
     *graph.pointer_mut(pointer).unwrap_or_else(|| panic!("no {pointer}")) = value.clone();
     let graph = graph::read(&graph.to_string(), &layout).map_err(|problem| problem.to_string())?;
-    Module { standalone: true, item: false, fused: false, paired: false, source: "a", command: "b" }.render(&graph)
+    Module { standalone: true, item: false, arithmetic: Arithmetic::default(), source: "a", command: "b" }
+        .render(&graph)
 }
 
 /// Where a graph has text that reaches the module, and whether it is an identifier there.
@@ -203,7 +204,8 @@ fn the_header_of_a_module_is_a_comment() {
     let text = json("examples/own_robot/layouts/inspector.json").to_string();
     let graph = graph::read(&text, &layout).expect("a graph");
     let hostile = "a\nfn stolen() {}\u{202e}";
-    let module = Module { standalone: true, item: false, fused: false, paired: false, source: hostile, command: hostile };
+    let module =
+        Module { standalone: true, item: false, arithmetic: Arithmetic::default(), source: hostile, command: hostile };
     let module = module.render(&graph).expect("a module");
     assert!(!module.contains(|c| c != '\n' && is_hidden(c)));
     assert!(module.lines().all(|line| !line.contains("stolen") || line.starts_with("//")), "{module:.200}");

@@ -1,8 +1,8 @@
 //! The tests that generated modules have of themselves.
 
 use crate::generate::shipped;
-use planar_capture::build::Module;
 use planar_capture::build::graph::Graph;
+use planar_capture::build::{Arithmetic, Module};
 use planar_capture::generate::complete;
 use planar_capture::registry::SHIPPED;
 use planar_proof::said;
@@ -12,7 +12,7 @@ use std::process::Command;
 use tempfile::TempDir;
 
 fn standalone(graph: &Graph) -> String {
-    let module = Module { standalone: true, item: false, fused: false, paired: false, source: "a", command: "b" };
+    let module = Module { standalone: true, item: false, arithmetic: Arithmetic::default(), source: "a", command: "b" };
     module.render(graph).unwrap_or_else(|e| panic!("{e}"))
 }
 

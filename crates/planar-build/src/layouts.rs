@@ -2,7 +2,7 @@
 
 use crate::command::{command, options};
 use crate::graph;
-use crate::pipeline::{fresh, has_vectors, is_fused, names, write};
+use crate::pipeline::{arithmetic, fresh, names, write};
 use crate::renderer::Module;
 use planar_layout::layout::{Layout, sha256};
 use std::fmt;
@@ -90,8 +90,7 @@ fn render_one(folder: &Path, name: &str, out: &Path) -> Result<(), BuildError> {
     if graph.self_test.is_none() {
         return Err(BuildError(format!("{shown} has no reference vectors; to mend: {mend}")));
     }
-    let (fused, paired) = (is_fused(), has_vectors());
-    let module = Module { standalone: false, item: true, fused, paired, source: &shown, command: &command };
+    let module = Module { standalone: false, item: true, arithmetic: arithmetic(), source: &shown, command: &command };
     let text = module.render(&graph).map_err(|e| format!("{shown}: {e}; to mend: {mend}"))?;
     let layout_text = fs::read_to_string(&layout_path).map_err(|e| format!("{from}: {e}"))?;
     write(&out.join(format!("{name}.layout")), &layout_text)?;

@@ -21,5 +21,5 @@ pub mod prove;
 
 pub use command::{command, options, quoted};
 pub use layouts::{BuildError, render, render_to, verify};
-pub use renderer::{CModule, CText, CoSimulation, CoSimulationVariable, Module, Role};
+pub use renderer::{Arithmetic, CModule, CText, CoSimulation, CoSimulationVariable, Module, Role};
 pub use sources::sources;

@@ -13,7 +13,7 @@
 //! ```
 
 use crate::graph::{self, Graph, GraphError};
-use crate::renderer::Module;
+use crate::renderer::{Arithmetic, Module};
 use crate::sources::sources;
 use planar_layout::layout::Layout;
 use planar_layout::structure::Structure;
@@ -76,7 +76,7 @@ pub fn render_all(codegen: &Path, out: &Path, enabled: &dyn Fn(&str) -> bool) ->
         if enabled(name) || has_files {
             let graph = fresh_in(codegen, ["layouts", "graphs"], name)?;
             if enabled(name) {
-                write(&out.join(format!("{name}.rs")), &rendered(&graph, codegen, name, [is_fused(), has_vectors()])?)?;
+                write(&out.join(format!("{name}.rs")), &rendered(&graph, codegen, name, arithmetic())?)?;
             }
             carried.push(carried_graph(&graph, codegen, "graphs", name)?);
         }
@@ -117,12 +117,17 @@ fn fresh_in(codegen: &Path, [layouts, graphs]: [&str; 2], name: &str) -> Result<
 /// # Errors
 /// As [`render_all`].
 pub fn render_one(codegen: &Path, name: &str, fused: bool) -> Result<String, String> {
-    rendered(&fresh_in(codegen, ["layouts", "graphs"], name)?, codegen, name, [fused, has_vectors()])
+    rendered(
+        &fresh_in(codegen, ["layouts", "graphs"], name)?,
+        codegen,
+        name,
+        Arithmetic { is_fused: fused, ..arithmetic() },
+    )
 }
 
-fn rendered(graph: &Graph, codegen: &Path, name: &str, [fused, paired]: [bool; 2]) -> Result<String, String> {
+fn rendered(graph: &Graph, codegen: &Path, name: &str, arithmetic: Arithmetic) -> Result<String, String> {
     let (source, command) = (format!("codegen/graphs/{name}.json"), derivation(name));
-    let module = Module { standalone: false, item: true, fused, paired, source: &source, command: &command };
+    let module = Module { standalone: false, item: true, arithmetic, source: &source, command: &command };
     let path = graph_path(codegen, "graphs", name);
     module.render(graph).map_err(|e| format!("{}: {e}; generate it again: {command}", path.display()))
 }
@@ -136,16 +141,13 @@ fn derivation(name: &str) -> String {
     format!("python -m codegen {name}")
 }
 
-/// Whether the crate that is built has a feature `fused`, and it is on.
+/// As the crate that is built wants it: fused where it has a feature `fused` that is on, in pairs where the processor that
+/// it is built for has vectors of two `f64`, whatever it has beside them.
 #[must_use]
-pub fn is_fused() -> bool {
-    is_on("FUSED")
-}
-
-/// Whether the processor that is built for has vectors of two `f64`, whatever features it has beside them.
-#[must_use]
-pub fn has_vectors() -> bool {
-    std::env::var("CARGO_CFG_TARGET_ARCH").is_ok_and(|name| ["x86_64", "aarch64"].contains(&name.as_str()))
+pub fn arithmetic() -> Arithmetic {
+    let processor = std::env::var("CARGO_CFG_TARGET_ARCH");
+    let has_vectors = processor.is_ok_and(|name| ["x86_64", "aarch64"].contains(&name.as_str()));
+    Arithmetic { is_fused: is_on("FUSED"), is_paired: has_vectors }
 }
 
 /// Whether the crate that is built has a feature, and it is on; the name in capitals.

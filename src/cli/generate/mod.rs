@@ -7,7 +7,7 @@ use super::progress::spinner;
 use super::terminal::{note, print};
 use super::{CommandError, derive, file_error, layout};
 use planar_capture::build::graph::{Graph, GraphError};
-use planar_capture::build::{CModule, CText, Module, command};
+use planar_capture::build::{Arithmetic, CModule, CText, Module, command};
 use planar_capture::fmu::{Fmu, archive};
 use planar_capture::generate::{GenerateError, Proved};
 use planar_capture::layout::Layout;
@@ -208,7 +208,13 @@ fn modules(graph: &Graph, layout: &Layout, arguments: &Arguments) -> Result<Vec<
     let texts = match arguments.language {
         Language::Rust => {
             let standalone = arguments.standalone;
-            let module = Module { standalone, item: false, fused: false, paired: false, source: &source, command: &command };
+            let module = Module {
+                standalone,
+                item: false,
+                arithmetic: Arithmetic::default(),
+                source: &source,
+                command: &command,
+            };
             module.render(graph).map(|text| vec![text])
         }
         Language::C => {

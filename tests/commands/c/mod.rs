@@ -5,7 +5,7 @@
 pub mod driver;
 
 use planar_capture::build::graph;
-use planar_capture::build::{CModule, CText, Module};
+use planar_capture::build::{Arithmetic, CModule, CText, Module};
 use planar_capture::generate::complete;
 use planar_capture::layout::Layout;
 use planar_proof::{file, said};
@@ -48,7 +48,8 @@ impl Modules {
         let header = format!("{name}.h");
         let in_c = CModule { header: &header, source: "a", command: "b" };
         let CText { source, header } = in_c.render(&proved.graph).unwrap_or_else(|e| panic!("{e}"));
-        let in_rust = Module { standalone: true, item: false, fused: false, source: "a", command: "b" };
+        let in_rust =
+            Module { standalone: true, item: false, arithmetic: Arithmetic::default(), source: "a", command: "b" };
         let rust = in_rust.render(&proved.graph).unwrap_or_else(|e| panic!("{e}"));
         let modules = Self {
             name: name.to_owned(),

@@ -48,15 +48,22 @@ pub struct Module<'a> {
     pub standalone: bool,
     /// Whether the text is an item `pub mod NAME { … }`, for `include!`, or a file of its own.
     pub item: bool,
-    /// Whether products and sums are fused, as the feature `fused` of `planar-capture` wants it.
-    pub fused: bool,
-    /// Whether arms of as many links are computed in pairs, where the module uses `planar_capture`: for processors that
-    /// have vectors.
-    pub paired: bool,
+    /// How it computes.
+    pub arithmetic: Arithmetic,
     /// The source that its header names.
     pub source: &'a str,
     /// The command that its header names, which generates it again.
     pub command: &'a str,
+}
+
+/// How a module computes what its graph says.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Arithmetic {
+    /// Products and sums are fused, as the feature `fused` of `planar-capture` wants it.
+    pub is_fused: bool,
+    /// Arms of as many links are computed in pairs, where the module uses `planar_capture`: for processors that have
+    /// vectors. The results have the same bits.
+    pub is_paired: bool,
 }
 
 impl Module<'_> {
@@ -86,7 +93,7 @@ fn alone(text: &str) -> String {
         format!("{before}{}", after.strip_prefix('\n').unwrap_or(after))
     });
     let text = without_example.as_deref().unwrap_or(text);
-    let foreign = ["#[cfg_attr(feature = \"serde\"", "use super::pair::", "super::pair::"];
+    let foreign = ["#[cfg_attr(feature = \"serde\"", "super::both::"];
     let is_foreign = |line: &&str| foreign.iter().any(|start| line.trim_start().starts_with(start));
     let kept: Vec<&str> = text.lines().filter(|line| !is_foreign(line)).collect();
     kept.join("\n") + "\n"
@@ -138,11 +145,12 @@ fn context(graph: &Graph, module: &Module<'_>) -> Value {
     let joints: usize = links.iter().sum();
     let constants: Vec<&str> = graph.constants.values.iter().map(|constant| constant.name.as_str()).collect();
     let set_up = Scope::parameters(graph, Syntax::Rust).lines(&[], &graph.constants.statements, &constants);
-    let symmetry = if module.paired { Symmetry::of(graph) } else { Symmetry::default() };
+    let Arithmetic { is_fused, is_paired } = module.arithmetic;
+    let symmetry = if is_paired { Symmetry::of(graph) } else { Symmetry::default() };
     let order = symmetry.side_by_side(&constants);
     let constant = |name: &&str| graph.constants.values.iter().find(|constant| constant.name == *name);
     let families: Vec<_> =
-        graph.families.iter().map(|family| render_family(graph, family, module.fused, &symmetry)).collect();
+        graph.families.iter().map(|family| render_family(graph, family, is_fused, &symmetry)).collect();
     json!({
         "source": printable(module.source),
         "command": printable(module.command),
@@ -176,8 +184,7 @@ fn body(lines: &[String]) -> String {
 fn render_family(graph: &Graph, family: &Family, is_fused: bool, symmetry: &Symmetry) -> (Value, bool) {
     let Family { name, description, configuration, functions } = family;
     let mut symmetry = symmetry.clone();
-    let stage =
-        Stage::new(&mut symmetry, &configuration.sections, &configuration.statements, &[], &Names::default());
+    let stage = Stage::new(&mut symmetry, &configuration.sections, &configuration.statements, &[], &Names::default());
     let values: Vec<&str> = configuration.values.iter().map(String::as_str).collect();
     let scope = Scope::constants(graph, Syntax::Rust, is_fused).with_pairs(&stage.names);
     let lines = scope.lines(&stage.sections, &stage.statements, &values);

@@ -184,7 +184,9 @@ impl<'a> Writer<'a> {
             State::Unwritten => {}
         }
         let both = place.map_or(vec![index], |place| self.pairings[place].statements.to_vec());
-        both.iter().for_each(|index| self.state[*index] = State::Begun);
+        for index in &both {
+            self.state[*index] = State::Begun;
+        }
         for index in &both {
             let Statement { a, b, .. } = &self.statements[*index];
             for name in [a, b].into_iter().filter_map(Operand::name) {
@@ -193,7 +195,9 @@ impl<'a> Writer<'a> {
                 }
             }
         }
-        both.iter().for_each(|index| self.state[*index] = State::Written);
+        for index in &both {
+            self.state[*index] = State::Written;
+        }
         let section = self.section_of(&both);
         if section != self.section {
             self.stage.sections.push((section.clone(), self.stage.statements.len()));
@@ -348,3 +352,6 @@ impl Names {
         name
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -43,7 +43,8 @@ impl Symmetry {
             }
         }
         let start = |arm: usize| links.iter().take(arm).sum::<usize>();
-        let joints = arms.iter().zip(&links).flat_map(|(other, links)| (0..*links).map(move |link| start(*other) + link));
+        let joints =
+            arms.iter().zip(&links).flat_map(|(other, links)| (0..*links).map(move |link| start(*other) + link));
         let joints = joints.collect();
         let mut symmetry = Self { counterparts: HashMap::new(), joints, arms };
         for input in graph.inputs.iter().filter(|input| !input.name.starts_with("base_")) {
@@ -53,9 +54,8 @@ impl Symmetry {
         }
         for parameter in &graph.parameters {
             let Some(other) = parameter.arm.and_then(|arm| symmetry.arms.get(arm)).copied() else { continue };
-            let is_other = |p: &&Parameter| {
-                p.quantity == parameter.quantity && p.link == parameter.link && p.arm == Some(other)
-            };
+            let is_other =
+                |p: &&Parameter| p.quantity == parameter.quantity && p.link == parameter.link && p.arm == Some(other);
             if let Some(found) = graph.parameters.iter().find(is_other) {
                 symmetry.insert(&parameter.name, &found.name, parameter.arm < found.arm);
             }
@@ -64,7 +64,8 @@ impl Symmetry {
         let names: HashSet<&str> = graph.constants.values.iter().map(|constant| constant.name.as_str()).collect();
         for name in &names {
             let of_arm = name.strip_prefix("arm").and_then(|rest| rest.split_once('_'));
-            let Some((arm, what)) = of_arm.and_then(|(number, what)| Some((number.parse::<usize>().ok()?, what))) else {
+            let Some((arm, what)) = of_arm.and_then(|(number, what)| Some((number.parse::<usize>().ok()?, what)))
+            else {
                 continue;
             };
             let other = arm.checked_sub(1).and_then(|arm| symmetry.arms.get(arm)).map_or(arm, |other| other + 1);
@@ -104,20 +105,20 @@ impl Symmetry {
 
     /// Of every element of an array, row-major, the one of the other arms.
     pub fn elements(&self, shape: &[usize]) -> Vec<usize> {
-        let axis = |length: usize| -> Vec<usize> {
+        let axis = |place: usize, length: usize| -> Vec<usize> {
             if length == self.joints.len() {
                 self.joints.clone()
             } else if length == self.joints.len() + 3 {
                 (0..3).chain(self.joints.iter().map(|joint| joint + 3)).collect()
-            } else if length == self.arms.len() {
+            } else if place == 0 && length == self.arms.len() {
                 self.arms.clone()
             } else {
                 (0..length).collect()
             }
         };
-        shape.iter().fold(vec![0], |places, length| {
-            let axis = axis(*length);
-            places.iter().flat_map(|place| axis.iter().map(move |index| place * length + index)).collect()
+        shape.iter().enumerate().fold(vec![0], |found, (place, length)| {
+            let axis = axis(place, *length);
+            found.iter().flat_map(|row| axis.iter().map(move |index| row * length + index)).collect()
         })
     }
 
@@ -185,3 +186,6 @@ fn name(operand: &Operand) -> Name {
         Operand::Name(name) => Name::Name(name.clone()),
     }
 }
+
+#[cfg(test)]
+mod tests;

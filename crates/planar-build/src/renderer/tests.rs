@@ -18,6 +18,13 @@ pub(super) fn statements(lines: &[&str]) -> Vec<Statement> {
     lines.iter().map(statement).collect()
 }
 
+/// A shipped graph.
+pub(super) fn graph(name: &str) -> Graph {
+    let path = format!("{}/../../codegen/graphs/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(path).expect("a graph");
+    serde_json::from_str(&text).expect("a graph")
+}
+
 /// A tag alone in its line leaves no line; text, and tags in it, stay as they are.
 #[test]
 fn lines_of_tags_are_none() {

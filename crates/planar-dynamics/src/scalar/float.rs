@@ -79,7 +79,7 @@ macro_rules! scalar {
                 if self < other || self.is_nan() { self } else { other }
             }
 
-            super::pair::at_once!($float);
+            super::both::at_once!($float);
         }
     };
 }

@@ -14,6 +14,7 @@
 //! ```
 
 mod accelerated;
+mod both;
 mod dual;
 pub(crate) mod far_angle;
 pub(crate) mod finite;

@@ -1,6 +1,5 @@
 //! The trait of numbers that generated code computes with.
 
-use super::pair::Pair;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number that generated code computes with: `f32`, `f64`, SIMD lanes, dual numbers.
@@ -45,5 +44,5 @@ pub trait Scalar:
     #[must_use]
     fn minimum(self, other: Self) -> Self;
 
-    super::pair::number_by_number!(add_pairs + sub_pairs - mul_pairs * div_pairs /);
+    super::both::number_by_number!(add_both + sub_both - mul_both * div_both /);
 }

@@ -33,7 +33,21 @@ impl<T: Scalar> Pair<T> {
     #[inline(always)]
     #[must_use]
     pub fn mul_add(self, factor: Self, addend: Self) -> Self {
-        T::mul_add_pairs(self, factor, addend)
+        T::mul_add_both(self.into(), factor.into(), addend.into()).into()
+    }
+}
+
+impl<T> From<Pair<T>> for [T; 2] {
+    #[inline(always)]
+    fn from(pair: Pair<T>) -> Self {
+        [pair.first, pair.second]
+    }
+}
+
+impl<T> From<[T; 2]> for Pair<T> {
+    #[inline(always)]
+    fn from([first, second]: [T; 2]) -> Self {
+        Self { first, second }
     }
 }
 
@@ -42,108 +56,68 @@ impl<T: Scalar> Neg for Pair<T> {
 
     #[inline(always)]
     fn neg(self) -> Self {
-        T::neg_pair(self)
+        T::neg_both(self.into()).into()
     }
 }
 
 macro_rules! operator {
-    ($trait:ident, $method:ident, $of_pairs:ident) => {
+    ($trait:ident, $method:ident, $both:ident) => {
         impl<T: Scalar> $trait for Pair<T> {
             type Output = Self;
 
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                T::$of_pairs(self, other)
+                T::$both(self.into(), other.into()).into()
             }
         }
     };
 }
 
-operator!(Add, add, add_pairs);
-operator!(Sub, sub, sub_pairs);
-operator!(Mul, mul, mul_pairs);
-operator!(Div, div, div_pairs);
+operator!(Add, add, add_both);
+operator!(Sub, sub, sub_both);
+operator!(Mul, mul, mul_both);
+operator!(Div, div, div_both);
 
-/// The methods of the trait: number by number.
-macro_rules! number_by_number {
-    ($($method:ident $operator:tt)*) => {
-        $(
-            #[doc(hidden)]
-            #[allow(clippy::inline_always, reason = "a call would pass pairs through memory")]
-            #[inline(always)]
-            #[must_use]
-            fn $method(a: Pair<Self>, b: Pair<Self>) -> Pair<Self> {
-                Pair { first: a.first $operator b.first, second: a.second $operator b.second }
+#[cfg(test)]
+mod tests {
+    use super::{Pair, Scalar};
+    use crate::scalar::{Dual, Real};
+
+    /// Operations on pairs have the bits of those on their numbers, in vectors or not.
+    #[test]
+    fn operations_have_the_bits_of_each_number() {
+        fn compare<T: Scalar>(numbers: &[T], bits: impl Fn(T) -> [u64; 2]) {
+            let size = numbers.len();
+            let at = |i: usize| numbers[i % size];
+            for i in 0..size * size {
+                let [a, b, c] = [at(i), at(i / size), at(i + i / size + 1)];
+                let [d, e, f] = [at(i + 3), at(i / size + 5), at(2 * i + 1)];
+                let [first, second, third] = [Pair::new(a, d), Pair::new(b, e), Pair::new(c, f)];
+                for (found, one, other) in [
+                    (first + second, a + b, d + e),
+                    (first - second, a - b, d - e),
+                    (first * second, a * b, d * e),
+                    (first / second, a / b, d / e),
+                    (-first, -a, -d),
+                    (first.mul_add(second, third), a.mul_add(b, c), d.mul_add(e, f)),
+                    (Pair::both(a), a, a),
+                ] {
+                    assert_eq!([bits(found.first), bits(found.second)], [bits(one), bits(other)]);
+                }
             }
-        )*
-
-        #[doc(hidden)]
-        #[allow(clippy::inline_always, reason = "a call would pass pairs through memory")]
-        #[inline(always)]
-        #[must_use]
-        fn neg_pair(a: Pair<Self>) -> Pair<Self> {
-            Pair { first: -a.first, second: -a.second }
         }
 
-        #[doc(hidden)]
-        #[allow(clippy::inline_always, reason = "a call would pass pairs through memory")]
-        #[inline(always)]
-        #[must_use]
-        fn mul_add_pairs(a: Pair<Self>, b: Pair<Self>, c: Pair<Self>) -> Pair<Self> {
-            Pair { first: a.first.mul_add(b.first, c.first), second: a.second.mul_add(b.second, c.second) }
-        }
-    };
-}
-
-/// The methods for one of the two floats: vectors for `f64`, where the processor has them.
-macro_rules! at_once {
-    (f32) => {};
-    (f64) => {
-        $crate::scalar::pair::at_once!(add_pairs + sub_pairs - mul_pairs * div_pairs /);
-    };
-    ($($method:ident $operator:tt)*) => {
-        $(
-            #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-            #[inline(always)]
-            fn $method(a: $crate::scalar::Pair<f64>, b: $crate::scalar::Pair<f64>) -> $crate::scalar::Pair<f64> {
-                (wide::f64x2::from(a) $operator wide::f64x2::from(b)).into()
-            }
-        )*
-
-        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-        #[inline(always)]
-        fn neg_pair(a: $crate::scalar::Pair<f64>) -> $crate::scalar::Pair<f64> {
-            (-wide::f64x2::from(a)).into()
+        /// One NaN is as good as another.
+        fn of<T: Real>(number: T) -> u64 {
+            let number = number.to_f64();
+            if number.is_nan() { u64::MAX } else { number.to_bits() }
         }
 
-        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-        #[inline(always)]
-        fn mul_add_pairs(
-            a: $crate::scalar::Pair<f64>,
-            b: $crate::scalar::Pair<f64>,
-            c: $crate::scalar::Pair<f64>,
-        ) -> $crate::scalar::Pair<f64> {
-            let [a, b, c] = [a, b, c].map(wide::f64x2::from);
-            (if cfg!(feature = "fused") { a.mul_add(b, c) } else { a * b + c }).into()
-        }
-    };
-}
-
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-impl From<Pair<f64>> for wide::f64x2 {
-    #[inline(always)]
-    fn from(pair: Pair<f64>) -> Self {
-        Self::new([pair.first, pair.second])
+        let special = [0.0, -0.0, 1.0, -3.5, 0.1, f64::INFINITY, f64::NAN, f64::MAX, 5e-324, 1e-160, -7.3e150];
+        compare(&special, |number| [of(number), 0]);
+        #[allow(clippy::cast_possible_truncation, reason = "infinite and zero in f32, too")]
+        compare(&special.map(|number| number as f32), |number| [of(number), 0]);
+        let dual = special.map(|number| Dual(number, 0.5 - number));
+        compare(&dual, |Dual(value, rate)| [of(value), of(rate)]);
     }
 }
-
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-impl From<wide::f64x2> for Pair<f64> {
-    #[inline(always)]
-    fn from(vector: wide::f64x2) -> Self {
-        let [first, second] = vector.to_array();
-        Self { first, second }
-    }
-}
-
-pub(super) use {at_once, number_by_number};

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 /// The indices of the fused sums and of the products in them.
 fn fused(lines: &[&str], results: &[&str]) -> [Vec<usize>; 2] {
     let (statements, mut found) = (statements(lines), [Vec::new(), Vec::new()]);
-    for (index, sum) in fuse(&statements, results) {
+    for (index, sum) in fuse(&statements, results, &|name| vec![name]) {
         found[usize::from(sum.is_none())].push(index);
     }
     found.map(|mut indices| {
@@ -21,7 +21,7 @@ fn what_is_fused_has_the_value_of_its_statements() {
     let values = HashMap::from([("a", 2.0), ("b", 3.0), ("c", 5.0)]);
     for (sum, expected) in [("add p c", 11.0), ("add c p", 11.0), ("sub p c", 1.0), ("sub c p", -1.0)] {
         let statements = statements(&["p = mul a b", &format!("s = {sum}")]);
-        let found = fuse(&statements, &["s"]);
+        let found = fuse(&statements, &["s"], &|name| vec![name]);
         let [Some(None), Some(Some(MultiplyAdd { a, b, addend, is_product_negative, is_addend_negative }))] =
             [0, 1].map(|index| found.get(&index))
         else {
