@@ -1,6 +1,6 @@
 //! From graph to Rust: reproducible text, operation counts, and errors that stop the build.
 
-use planar_build::pipeline;
+use planar_build::{Arithmetic, pipeline};
 use planar_capture::{diagnostic, layout};
 use planar_proof::file;
 use std::fs;
@@ -12,8 +12,13 @@ fn layouts() -> Vec<String> {
     names
 }
 
-fn rendered(name: &str, fused: bool) -> String {
-    pipeline::render_one(&file("codegen"), name, fused).unwrap_or_else(|e| panic!("{e}"))
+fn rendered(name: &str, arithmetic: Arithmetic) -> String {
+    pipeline::render_one(&file("codegen"), name, arithmetic).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// Without pairs: one statement per operation.
+fn plain(name: &str) -> String {
+    rendered(name, Arithmetic::default())
 }
 
 /// The library was compiled from the code rendered from the committed graph.
@@ -21,9 +26,9 @@ fn rendered(name: &str, fused: bool) -> String {
 fn built_code_is_the_committed_graphs() {
     for name in layouts() {
         let built = fs::read_to_string(Path::new(env!("OUT_DIR")).join(format!("{name}.rs"))).expect("built code");
-        let fused = cfg!(feature = "fused");
-        assert!(built == rendered(&name, fused), "{name}: cargo build again");
-        assert!(built == rendered(&name, fused), "{name}: the same graph renders to another text");
+        let arithmetic = Arithmetic { is_fused: cfg!(feature = "fused"), ..pipeline::arithmetic() };
+        assert!(built == rendered(&name, arithmetic), "{name}: cargo build again");
+        assert!(built == rendered(&name, arithmetic), "{name}: the same graph renders to another text");
         assert!(built.starts_with(&format!("// @generated from codegen/graphs/{name}.json")), "no header");
         assert!(built.contains(&format!("python -m codegen {name}")), "the header names its command");
         for forbidden in ["unsafe", "alloc::", "std::", ".unwrap()", ".expect(", "panic!", ".get("] {
@@ -48,7 +53,7 @@ fn operations(body: &str) -> usize {
 /// The targets for the paper's robot, counted in the rendered text.
 #[test]
 fn paper_robot_is_within_its_operation_targets() {
-    let text = rendered("dual_arm_3r", false);
+    let text = plain("dual_arm_3r");
     let staged = |family: &str| operations(body(&text, &format!("pub fn {family}_configuration(")));
     let pairs = |family: &str| {
         let (_, batch) =
@@ -84,7 +89,7 @@ fn no_block_is_too_long_for_a_compiler_that_describes_its_variables() {
     let mut longest = 0;
     for name in layouts() {
         let mut open = vec![0];
-        for line in rendered(&name, false).lines().map(str::trim) {
+        for line in plain(&name).lines().map(str::trim) {
             if line.starts_with("let ") {
                 *open.last_mut().expect("a block") += 1;
             }
@@ -106,7 +111,7 @@ fn documentation_is_indented_like_its_item() {
     let column = |line: &str| line.len() - line.trim_start().len();
     let is_doc = |line: &str| line.trim_start().starts_with("///");
     for name in layouts() {
-        let text = rendered(&name, false);
+        let text = plain(&name);
         for (line, next) in text.lines().zip(text.lines().skip(1)).filter(|(line, _)| is_doc(line)) {
             assert_eq!(column(line), column(next), "{name}:\n{line}\n{next}");
             assert!(is_doc(next) || line.trim() != "///", "{name}: an empty line before\n{next}");

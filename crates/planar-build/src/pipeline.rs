@@ -2,11 +2,12 @@
 //!
 //! # Example
 //! ```
+//! use planar_build::Arithmetic;
 //! use planar_build::pipeline::{names, render_one};
 //!
 //! let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../codegen");
 //! assert_eq!(names(folder.as_ref(), "txt")?, ["requirements", "requirements-dev"]);
-//! let text = render_one(folder.as_ref(), "single_arm_2r", false)?;
+//! let text = render_one(folder.as_ref(), "single_arm_2r", Arithmetic::default())?;
 //! assert!(text.contains("\npub mod single_arm_2r {\n"));
 //! assert!(text.contains("\n    pub const JOINTS: usize = 2;\n"));
 //! # Ok::<(), String>(())
@@ -116,13 +117,8 @@ fn fresh_in(codegen: &Path, [layouts, graphs]: [&str; 2], name: &str) -> Result<
 ///
 /// # Errors
 /// As [`render_all`].
-pub fn render_one(codegen: &Path, name: &str, fused: bool) -> Result<String, String> {
-    rendered(
-        &fresh_in(codegen, ["layouts", "graphs"], name)?,
-        codegen,
-        name,
-        Arithmetic { is_fused: fused, ..arithmetic() },
-    )
+pub fn render_one(codegen: &Path, name: &str, arithmetic: Arithmetic) -> Result<String, String> {
+    rendered(&fresh_in(codegen, ["layouts", "graphs"], name)?, codegen, name, arithmetic)
 }
 
 fn rendered(graph: &Graph, codegen: &Path, name: &str, arithmetic: Arithmetic) -> Result<String, String> {
@@ -142,11 +138,11 @@ fn derivation(name: &str) -> String {
 }
 
 /// As the crate that is built wants it: fused where it has a feature `fused` that is on, in pairs where the processor that
-/// it is built for has vectors of two `f64`, whatever it has beside them.
+/// it is built for, outside of a build script this one, has vectors of two `f64`, whatever it has beside them.
 #[must_use]
 pub fn arithmetic() -> Arithmetic {
-    let processor = std::env::var("CARGO_CFG_TARGET_ARCH");
-    let has_vectors = processor.is_ok_and(|name| ["x86_64", "aarch64"].contains(&name.as_str()));
+    let processor = std::env::var("CARGO_CFG_TARGET_ARCH").unwrap_or_else(|_| std::env::consts::ARCH.to_owned());
+    let has_vectors = ["x86_64", "aarch64"].contains(&processor.as_str());
     Arithmetic { is_fused: is_on("FUSED"), is_paired: has_vectors }
 }
 

@@ -167,7 +167,7 @@ fn context(graph: &Graph, module: &Module<'_>) -> Value {
         "operations": doc_text::operations(graph),
         "parameter_names": graph.parameters.iter().map(|parameter| &parameter.name).collect::<Vec<_>>(),
         "parameters": graph.parameters.iter().map(parameter).collect::<Vec<_>>(),
-        "constants": {"statements": body(&set_up), "values": order.iter().filter_map(constant).collect::<Vec<_>>(), "names": constants},
+        "constants": {"statements": body(&set_up), "values": order.iter().filter_map(constant).collect::<Vec<_>>(), "names": order},
         "steps": steps(),
         "merged": merged_links(graph),
         "has_pairs": families.iter().any(|(_, has_pairs)| *has_pairs),

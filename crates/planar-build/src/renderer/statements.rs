@@ -101,8 +101,10 @@ impl<'a> Scope<'a> {
             let leaving: Vec<&str> =
                 block.iter().flat_map(|l| &l.targets).copied().filter(|n| later.contains(n)).collect();
             let (pairs, numbers): (Vec<&str>, Vec<&str>) = leaving.into_iter().partition(|name| self.is_pair(name));
-            let arrays = [numbers, pairs].map(|names| format!("[{}]", names.join(", ")));
-            let leaving = if arrays[1] == "[]" { arrays[0].clone() } else { format!("({})", arrays.join(", ")) };
+            // an array of nothing would have no type
+            let arrays = [numbers, pairs].into_iter().filter(|names| !names.is_empty());
+            let arrays: Vec<String> = arrays.map(|names| format!("[{}]", names.join(", "))).collect();
+            let leaving = if arrays.len() == 1 { arrays.concat() } else { format!("({})", arrays.join(", ")) };
             let inside = texts(self.syntax, block).into_iter().map(|line| format!("    {line}"));
             let first = format!("let {leaving} = {{");
             let last = [format!("    {leaving}"), "};".to_owned()];

@@ -3,7 +3,7 @@
 //! It is where pairs of statements are looked for; what is computed does not depend on it.
 
 use crate::format::{Graph, Operand, Operation, Parameter, Statement};
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// Names, and those of the other arm.
 #[derive(Clone, Debug, Default)]
@@ -31,12 +31,18 @@ enum Name {
 }
 
 impl Symmetry {
-    /// Of inputs, parameters and constants. Arms of as many links are of equal structure.
+    /// Of inputs, parameters and constants. Arms of as many links with the same exact zeros are of equal structure.
     pub fn of(graph: &Graph) -> Self {
         let links: Vec<usize> = graph.layout.arms.iter().map(|arm| arm.links).collect();
+        // the numbers that the graph has of an arm: the others are exact zeros
+        let structure = |arm: usize| {
+            let of_arm = graph.parameters.iter().filter(move |parameter| parameter.arm == Some(arm));
+            let numbers: BTreeSet<_> = of_arm.map(|parameter| (&parameter.quantity, parameter.link)).collect();
+            (links[arm], numbers)
+        };
         let mut arms: Vec<usize> = (0..links.len()).collect();
         for first in 0..links.len() {
-            let is_other = |second: &usize| arms[*second] == *second && links[*second] == links[first];
+            let is_other = |second: &usize| arms[*second] == *second && structure(*second) == structure(first);
             let second = (first + 1..links.len()).find(is_other);
             if let (Some(second), true) = (second, arms[first] == first) {
                 arms.swap(first, second);

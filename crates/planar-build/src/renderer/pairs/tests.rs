@@ -1,6 +1,6 @@
 //! What is paired, and that the numbers stay, for statements of a few lines and for the shipped graphs.
 
-use super::{Half, Names, Stage, Symmetry};
+use super::{Half, MOST, Names, Stage, Symmetry};
 use crate::format::{Graph, Operand, Operation, Statement, Targets};
 use crate::renderer::tests::{graph, statements};
 use std::collections::HashMap;
@@ -126,7 +126,7 @@ fn pairs_have_the_bits_of_their_statements() {
     let saved: Vec<usize> = graphs().iter().map(compare).collect();
     let [dual, single, three] = saved.as_slice() else { panic!("{saved:?}") };
     assert_eq!(*single, 0, "one arm has no other");
-    assert!(*dual > 800 && *three > 800, "{saved:?}");
+    assert!(*dual > 700 && *three > 1000, "{saved:?}");
 }
 
 /// Two arms of one joint, whose names begin with `joint_angles`, `p` and `q`.
@@ -154,32 +154,41 @@ fn paired(lines: &[&str]) -> Vec<String> {
 
 #[test]
 fn what_two_arms_do_becomes_one_statement() {
-    // operands of a product in either order
-    let lines = ["a1 = mul p1 x[0]", "a2 = mul x[1] p2", "r1 = sub a1 s", "r2 = sub a2 s"];
-    let expected = ["a1_a2 = Mul p1 & p2, x[0] & x[1]", "r1_r2 = Sub a1_a2, s & s"];
+    // operands of a product in either order; what is joined twice has a name
+    let lines = ["a1 = mul p1 s", "a2 = mul s p2", "r1 = sub a1 s", "r2 = sub a2 s"];
+    let expected = ["s_both = Copy s & s", "a1_a2 = Mul p1 & p2, s_both", "r1_r2 = Sub a1_a2, s_both"];
     assert_eq!(paired(&lines), expected);
-    // what is joined twice has a name; halves are used where one arm alone needs them
-    let lines = ["a1 = mul p1 x[0]", "a2 = mul p2 x[1]", "t = add a1 a2", "r1 = mul t p1", "r2 = mul t p2"];
-    let expected =
-        ["p1_p2 = Copy p1 & p2", "a1_a2 = Mul p1_p2, x[0] & x[1]", "t = Add a1, a2", "r1_r2 = Mul t & t, p1_p2"];
+    // halves are used where one number alone is needed
+    let lines = ["a1 = div p1 s", "a2 = div p2 s", "t = add a1 a2", "r1 = mul t a1", "r2 = mul t a2"];
+    let expected = ["a1_a2 = Div p1 & p2, s & s", "t = Add a1, a2", "r1_r2 = Mul t & t, a1_a2"];
     assert_eq!(paired(&lines), expected);
     // from the results: nothing but the results says that b1 and b2 go together
     let lines = ["b1 = sub s u", "b2 = sub v u", "r1 = mul b1 w", "r2 = mul b2 w"];
     assert_eq!(paired(&lines), ["b1_b2 = Sub s & v, u & u", "r1_r2 = Mul b1_b2, w & w"]);
     // the sines of two arms beside each other, the earlier arm's first, as they are
-    let lines = ["s2,c2 = sin_cos x[1]", "s,c = sin_cos z", "s1,c1 = sin_cos x[0]", "r1 = neg s1", "r2 = neg s2"];
-    let expected = ["s1,c1 = SinCos x[0]", "s2,c2 = SinCos x[1]", "s,c = SinCos z", "r1_r2 = Neg s1 & s2"];
+    let lines = ["s2,c2 = sin_cos x[1]", "s,c = sin_cos z", "s1,c1 = sin_cos x[0]", "r1 = div s1 s", "r2 = div s2 s"];
+    let expected = ["s1,c1 = SinCos x[0]", "s2,c2 = SinCos x[1]", "s,c = SinCos z", "r1_r2 = Div s1 & s2, s & s"];
     assert_eq!(paired(&lines), expected);
 }
 
-/// Of arms that need each other's results one after the other nothing is paired; neither is another operation.
+/// Of arms that need each other's results one after the other nothing is paired; neither is what saves nothing, another
+/// operation, or a stage of very many statements.
 #[test]
-fn what_needs_the_other_arm_is_not_paired() {
+fn what_needs_the_other_arm_or_saves_nothing_is_not_paired() {
     let lines = ["r1 = mul s u", "b = add r1 v", "r2 = mul b u"];
     assert_eq!(paired(&lines), ["r1 = Mul s, u", "b = Add r1, v", "r2 = Mul b, u"]);
+    // two to be joined, and one to be parted
+    let lines = ["r1 = mul p1 x[0]", "r2 = mul p2 x[1]", "t = sub r1 r2"];
+    assert_eq!(paired(&lines), ["r1 = Mul p1, x[0]", "r2 = Mul p2, x[1]", "t = Sub r1, r2"]);
     assert_eq!(paired(&["r1 = mul s u", "r2 = div s u"]), ["r1 = Mul s, u", "r2 = Div s, u"]);
     assert_eq!(paired(&["r1 = sqrt p1", "r2 = sqrt p2"]), ["r1 = Sqrt p1", "r2 = Sqrt p2"]);
     assert_eq!(paired(&["r1 = min p1 s", "r2 = min p2 s"]), ["r1 = Min p1, s", "r2 = Min p2, s"]);
+    let lines = |others: usize| -> usize {
+        let others = (0..others).map(|i| format!("o{i} = neg s"));
+        let all: Vec<String> = others.chain(["r1 = div p1 s".to_owned(), "r2 = div p2 s".to_owned()]).collect();
+        paired(&all.iter().map(String::as_str).collect::<Vec<_>>()).len()
+    };
+    assert_eq!([lines(MOST - 2), lines(MOST - 1)], [MOST - 1, MOST + 1]);
 }
 
 /// A pair is kept for the next stage where both of its halves are, else the half.

@@ -121,6 +121,21 @@ fn long_stages_are_in_blocks() {
     assert_eq!(long[BLOCK + 4..], [&*format!("    let x = v_{BLOCK} + v_1;"), "    [x]", "};"]);
 }
 
+/// Blocks hand on numbers and pairs in an array each; an array of nothing would have no type.
+#[test]
+fn blocks_end_with_numbers_and_pairs() {
+    let first = |last: &str| {
+        let next = |i: usize| format!("v_{} = add v_{i} v_{i}", i + 1);
+        let all: Vec<String> =
+            (0..BLOCK - 1).map(next).chain(["p = neg v_1".to_owned(), format!("x = {last}")]).collect();
+        let statements = statements(&all.iter().map(String::as_str).collect::<Vec<_>>());
+        let names = Names { pairs: ["p".to_owned()].into(), ..Names::default() };
+        Scope::default().with_pairs(&names).lines(&[], &statements, &["x"]).swap_remove(0)
+    };
+    assert_eq!(first("add v_1 p"), "let ([v_1], [p]) = {");
+    assert_eq!(first("neg p"), "let [p] = {");
+}
+
 #[test]
 fn arrays_have_their_shapes() {
     let elements = ["a", "b", "c", "d"].map(str::to_owned);

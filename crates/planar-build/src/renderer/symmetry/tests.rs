@@ -1,6 +1,7 @@
 //! Names of equal arms.
 
 use super::Symmetry;
+use crate::format::Arm;
 use crate::renderer::tests::graph;
 
 #[test]
@@ -35,11 +36,14 @@ fn arms_are_taken_two_by_two() {
     let of = |links: &[usize]| {
         let mut graph = graph("dual_arm_3r");
         let arm = graph.layout.arms[0].clone();
-        graph.layout.arms = links.iter().map(|links| crate::format::Arm { links: *links, ..arm.clone() }).collect();
+        graph.layout.arms = links.iter().map(|links| Arm { links: *links, ..arm.clone() }).collect();
+        graph.parameters.retain(|parameter| parameter.arm.is_none());
         Symmetry::of(&graph).arms
     };
     assert_eq!(of(&[3, 2]), [0, 1]);
     assert_eq!(of(&[2, 2, 2]), [1, 0, 2]);
     assert_eq!(of(&[2, 1, 1, 2]), [3, 2, 1, 0]);
     assert_eq!(of(&[4, 4, 4, 4]), [1, 0, 3, 2]);
+    // the mount of the first one is on an axis
+    assert_eq!(Symmetry::of(&graph("triple_arm_3r")).arms, [0, 2, 1]);
 }
