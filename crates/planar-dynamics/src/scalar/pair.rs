@@ -90,19 +90,20 @@ mod tests {
             let size = numbers.len();
             let at = |i: usize| numbers[i % size];
             for i in 0..size * size {
-                let [a, b, c] = [at(i), at(i / size), at(i + i / size + 1)];
-                let [d, e, f] = [at(i + 3), at(i / size + 5), at(2 * i + 1)];
-                let [first, second, third] = [Pair::new(a, d), Pair::new(b, e), Pair::new(c, f)];
-                for (found, one, other) in [
-                    (first + second, a + b, d + e),
-                    (first - second, a - b, d - e),
-                    (first * second, a * b, d * e),
-                    (first / second, a / b, d / e),
-                    (-first, -a, -d),
-                    (first.mul_add(second, third), a.mul_add(b, c), d.mul_add(e, f)),
-                    (Pair::both(a), a, a),
+                let one = [at(i), at(i / size), at(i + i / size + 1)];
+                let other = [at(i + 3), at(i / size + 5), at(2 * i + 1)];
+                let [a, b, c] = [0, 1, 2].map(|place| Pair::new(one[place], other[place]));
+                let of_each = |operation: fn([T; 3]) -> T| [operation(one), operation(other)];
+                for (found, expected) in [
+                    (a + b, of_each(|[a, b, _]| a + b)),
+                    (a - b, of_each(|[a, b, _]| a - b)),
+                    (a * b, of_each(|[a, b, _]| a * b)),
+                    (a / b, of_each(|[a, b, _]| a / b)),
+                    (-a, of_each(|[a, ..]| -a)),
+                    (a.mul_add(b, c), of_each(|[a, b, c]| a.mul_add(b, c))),
+                    (Pair::both(a.first), [a.first; 2]),
                 ] {
-                    assert_eq!([bits(found.first), bits(found.second)], [bits(one), bits(other)]);
+                    assert_eq!([found.first, found.second].map(&bits), expected.map(&bits));
                 }
             }
         }
