@@ -1,5 +1,6 @@
 """Derivatives equal CasADi's of the Lagrangian, and each other; their operations stay below ceilings."""
 
+from dataclasses import replace
 from functools import cache
 
 import casadi as ca
@@ -200,13 +201,19 @@ def test_operations_stay_below_their_ceiling(name):
 
 
 def test_what_cannot_be_derived_is_an_error():
-    def derive(layout: str, *directional: str) -> None:
-        Functions(LAYOUTS[layout], derivatives=Derivatives(directional=directional))
+    def derive(layout: str | Layout, *directional: str) -> None:
+        robot = LAYOUTS[layout] if isinstance(layout, str) else layout
+        Functions(robot, derivatives=Derivatives(directional=directional))
 
     with pytest.raises(DerivativesError, match=r"no function `momenta`.* momentum"):
         derive("single_arm_2r", "momenta")
     with pytest.raises(DerivativesError, match=r"COM of the last link of arm `at_0.5_0.0_0.0` is at its joint"):
         derive("wheel_at_the_end", "forward_dynamics:parameters")
+    # beside an arm that has the derivative, too
+    wheels = LAYOUTS["wheel_at_the_end"]
+    second = replace(wheels, arms=(LAYOUTS["chain_2"].arms[0], wheels.arms[1]))
+    with pytest.raises(DerivativesError, match=r"COM of the last link of arm `at_-0.4_0.0_0.0` is at its joint"):
+        derive(second, "forward_dynamics:parameters")
     derive("wheel_at_the_end", "forward_dynamics", "reduced_dynamics:parameters")
     with pytest.raises(DerivativesError, match=r"no derivatives of `momentum`; there are: forward_dynamics, impact"):
         Derivatives(("momentum",))
