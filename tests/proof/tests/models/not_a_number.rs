@@ -1,6 +1,6 @@
 //! A number that is not one shows: in the pivot of every generated function whose matrix has it, otherwise in a result.
 
-use planar_capture::scalar::{Real, Scalar};
+use planar_capture::scalar::{Dual, Real, Scalar};
 use planar_proof::for_every_layout;
 use std::array::from_fn;
 
@@ -183,6 +183,7 @@ fn the_minimum_keeps_what_is_not_a_number() {
     }
     check::<f64>(|x| vec![x]);
     check::<f32>(|x| vec![x.into()]);
+    check::<Dual>(|x| vec![x.0]);
     check::<wide::f64x4>(|x| x.to_array().to_vec());
     check::<wide::f64x8>(|x| x.to_array().to_vec());
     check::<wide::f32x8>(|x| x.to_array().map(f64::from).to_vec());
