@@ -15,6 +15,8 @@ use planar_capture::formulation::CanonicalVariables;
 use planar_capture::generated::dual_arm_3r::{ARMS, JOINTS, Model, PARAMETERS, Parameters};
 use planar_capture::impact::{PaperImpactWorkspace, RigidImpactOutput, exact, paper};
 use planar_capture::layout::Layout;
+use planar_capture::owned::CloneModel;
+use planar_capture::registry::generic;
 use planar_capture::state::{Forces, State};
 use planar_capture::target::Target;
 use planar_capture::trajectory::ConstantSetpoint;
@@ -212,6 +214,29 @@ fn every_number_of_a_state_is_named_and_none_travels() {
                 assert!(results.iter().all(|result| result.is_finite()), "{name}[{index}] = {number}: {results:?}");
             }
         }
+    }
+}
+
+/// A target whose numbers have a place in 64 bits, and its inertia together with that of a link has none: nothing merges the
+/// two, and the model stays as it was.
+#[test]
+fn what_is_no_number_together_is_not_merged() {
+    let layout = Layout::read(&file("codegen/layouts/dual_arm_3r.toml")).expect("a layout");
+    let graph = evaluator("graphs", "dual_arm_3r").model(&layout).expect("its structure");
+    let models: [Box<dyn CloneModel>; 3] = [Box::new(Model::<f64>::default()), Box::new(graph), generic(&layout)];
+    let target = |contact: f64| Target { mass: 10.0, inertia: 1.0, contact: [0.0, contact], twist: [0.0; 3] };
+    for mut model in models {
+        let matrix = |model: &dyn CloneModel| {
+            let mut matrix = [0.0; (3 + JOINTS) * (3 + JOINTS)];
+            model.mass_matrix(&STATE.base_pose, STATE.joint_angles, &mut matrix).expect("a matrix");
+            matrix
+        };
+        let before = matrix(&*model);
+        let far = model.merge(&STATE.base_pose, STATE.joint_angles, &[None, Some(target(1e160))]);
+        assert!(matches!(far, Err(Error::NotFinite { quantity: "merged parameters", .. })), "{far:?}");
+        assert_eq!(matrix(&*model), before);
+        assert_eq!(model.merge(&STATE.base_pose, STATE.joint_angles, &[None, Some(target(0.5))]), Ok(()));
+        assert_ne!(matrix(&*model), before);
     }
 }
 
