@@ -323,6 +323,19 @@ mod tests {
         assert_eq!(is_captured(&scenario, case), Some(false));
     }
 
+    /// The end of an approach that meets nothing is no time of a contact.
+    #[test]
+    fn a_case_that_meets_nothing_has_no_contact_time() {
+        let scenario = two_discs("duration = 0.5\n");
+        let model = registry::generic(&layout("dual_arm_3r"));
+        let mut study = study(&scenario, &|| model.clone_box(), 1.0, &mut Silent).expect("a study");
+        let outputs = outputs(&scenario, &[]);
+        let time = outputs.iter().find(|output| output.name == "contact_time").expect("a column");
+        assert_eq!(time.value(&study, &study.cases[0]), Some(study.approach.duration));
+        study.cases[0].capture = None;
+        assert_eq!(time.value(&study, &study.cases[0]), None);
+    }
+
     /// The columns of designed rates are those of their joints.
     #[test]
     fn designed_rates_are_those_of_the_joints() {
