@@ -415,6 +415,9 @@ fn targets_that_are_never_met_are_named() {
     assert_eq!(coming.matches("can meet").count(), 1, "{coming}");
     let away = shown("[5.5, 0.1]", "[0.0, 0.9, 0.0]");
     assert!(away.contains("`target[0].position` is"), "{away}");
+    // what comes after the end of the approach comes too late: the motion goes on only where another target was met
+    let late = shown("[9.5, 0.1]", "[0.0, -0.1, 0.0]");
+    assert!(late.contains("`target[0].position` is"), "{late}");
     assert!(!shown("[3.0, 0.1]", "[0.0, 0.1, 0.0]").contains("can meet"));
 }
 
