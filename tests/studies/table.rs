@@ -61,6 +61,19 @@ fn overlaps_that_are_left_out_are_counted() {
     }
 }
 
+/// Times at torque limits stand with the phase that has them.
+#[test]
+fn each_phase_has_its_own_times_at_limits() {
+    let (scenario, mut study) = first_case("raina_shah_2017");
+    study.approach.saturation.joints = vec![0.0; 6];
+    let capture = study.cases[0].capture.as_mut().expect("a capture");
+    capture.post_impact.saturation.joints = vec![0.0, 0.25, 0.0, 0.0, 0.0, 0.0];
+    let table = table(&scenario, &study);
+    let (before, after) = table.split_once("After the impact").expect("a heading");
+    assert!(words(before).contains("joint torques never at their limits"), "{before}");
+    assert!(words(after).contains("joint torques at their limits: joint 2 of arm1 for 0.250 s"), "{after}");
+}
+
 /// Printed impulses stand beside those of their own target.
 #[test]
 fn each_target_has_its_own_printed_impulse() {
