@@ -415,6 +415,25 @@ fn the_summary_tells_overlaps_and_planned_contacts_apart() {
     assert!(study.cases.iter().any(differ) && overlaps > 0, "{overlaps} overlaps");
 }
 
+/// An approach that a contact ends stands in the summary with its own end, not with that of the approach without contacts.
+#[test]
+fn the_summary_has_the_approach_of_each_case() {
+    let scenario = scenario("elastic_rebound");
+    let study = run(&scenario);
+    let value = summary(&scenario, &study);
+    let mut ended = 0;
+    for (case, value) in study.cases.iter().zip(value["cases"].as_array().expect("cases")) {
+        let (own, found) = (case.approach.as_ref().expect("an approach of its own"), &value["approach"]);
+        let end = own.end();
+        assert_eq!(number(&found["duration"]).to_bits(), own.duration.to_bits());
+        assert_eq!(numbers(&found["base_pose"]), end.state.base_pose);
+        assert_eq!(numbers(&found["joint_rates"]), end.state.joint_rates);
+        assert_eq!(numbers(&found["end_effector_twists"][0]), end.end_effector_twists[0]);
+        ended += usize::from(own.duration < study.approach.duration);
+    }
+    assert!(ended > 0, "a contact ends an approach");
+}
+
 /// What few studies have stands in the summary as it is: later impacts since the first one, penetrations however small, and every part of
 /// a missed goal.
 #[test]
