@@ -86,8 +86,7 @@ macro_rules! implement_dynamics {
             }
 
             impl<T: Real> ForwardDynamics<T> for Model<T> {
-                #[cfg_attr(target_arch = "arm", inline(always))]
-                #[cfg_attr(not(target_arch = "arm"), inline)]
+                #[inline(always)]
                 fn forward_dynamics(
                     &self,
                     state: &State<'_, T>,
@@ -277,8 +276,7 @@ macro_rules! implement_dynamics {
     (@accelerations $name:ident $function:ident($($wrench:ident: $type:ty => $slice:expr),*)) => {
         /// The accelerations, unless an input is not finite or the matrix singular. Inlined where registers are few: the
         /// caller's state and forces are then in no frame, nor is the error that it does not look at.
-        #[cfg_attr(target_arch = "arm", inline(always))]
-        #[cfg_attr(not(target_arch = "arm"), inline)]
+        #[inline(always)]
         #[allow(clippy::too_many_arguments, reason = "those of the inherent function, and the result")]
         fn $name<T: Real>(
             model: &Model<T>,
