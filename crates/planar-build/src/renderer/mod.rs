@@ -15,7 +15,7 @@ pub use c::{CModule, CText, CoSimulation, CoSimulationVariable, Role};
 
 use crate::format::{Family, Function, Graph, Operand, Parameter, ReferenceState, Variable};
 use composites::{merged_links, steps};
-use pairs::{Names, Stage};
+use pairs::{Names, paired};
 use planar_dynamics::standalone::PARTS;
 use planar_layout::diagnostic::printable;
 use planar_layout::layout::sha256;
@@ -184,7 +184,7 @@ fn body(lines: &[String]) -> String {
 fn render_family(graph: &Graph, family: &Family, is_fused: bool, symmetry: &Symmetry) -> (Value, bool) {
     let Family { name, description, configuration, functions } = family;
     let mut symmetry = symmetry.clone();
-    let stage = Stage::new(&mut symmetry, &configuration.sections, &configuration.statements, &[], &Names::default());
+    let stage = paired(&mut symmetry, &configuration.sections, &configuration.statements, &[], &Names::default());
     let values: Vec<&str> = configuration.values.iter().map(String::as_str).collect();
     let scope = Scope::constants(graph, Syntax::Rust, is_fused).with_pairs(&stage.names);
     let lines = scope.lines(&stage.sections, &stage.statements, &values);
@@ -227,7 +227,7 @@ fn render_function(
 ) -> (Value, bool) {
     let Function { name, outputs, sections, statements, .. } = function;
     let pairs: Vec<_> = outputs.iter().flat_map(|output| counterparts(symmetry, output)).collect();
-    let stage = Stage::new(&mut symmetry.clone(), sections, statements, &pairs, names);
+    let stage = paired(&mut symmetry.clone(), sections, statements, &pairs, names);
     let scope = Scope::call(graph, fields, is_fused).with_pairs(&stage.names);
     let results: Vec<&str> = outputs.iter().flat_map(|output| &output.elements).filter_map(Operand::name).collect();
     let mut lines = scope.lines(&stage.sections, &stage.statements, &results);
