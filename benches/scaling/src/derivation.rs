@@ -1,7 +1,7 @@
 //! Sizes and derivation time of a robot's graph and module.
 
 use crate::{Problem, REPEATS, shape::Shape};
-use planar_capture::build::Module;
+use planar_capture::build::{Arithmetic, Module};
 use planar_capture::generate::{complete, derive};
 use planar_capture::python_package::PYTHON_PACKAGE;
 use serde_json::Value;
@@ -36,7 +36,7 @@ impl Derivation {
             let module = Module {
                 standalone,
                 item: !standalone,
-                fused: false,
+                arithmetic: Arithmetic::default(),
                 source: "the scaling benchmark",
                 command: "cargo run",
             };

@@ -1,7 +1,7 @@
 //! Graphs: one that is read renders to Rust.
 
 use super::{Target, file, promised, refused};
-use planar_capture::build::{Module, graph};
+use planar_capture::build::{Arithmetic, Module, graph};
 use planar_capture::generate::prove;
 use planar_capture::layout::Layout;
 use serde_json::{Value, json};
@@ -48,7 +48,8 @@ fn read(bytes: &[u8]) -> Result<bool, String> {
             Ok(graph) => graph,
             Err(error) => return refused(&error),
         };
-        let module = Module { standalone: false, item: true, fused: false, source: "graph.json", command: "make" };
+        let arithmetic = Arithmetic { is_fused: text.len() % 4 > 1, is_paired: text.len() % 2 == 1 };
+        let module = Module { standalone: false, item: true, arithmetic, source: "graph.json", command: "make" };
         let module = module.render(&graph).map_err(|error| format!("it does not render: {error}"))?;
         let parsed = syn::parse_file(&module).map_err(|error| format!("its module is no Rust: {error}"))?;
         promised(parsed.items.len() == 1, "a graph renders to one module")?;
