@@ -201,7 +201,25 @@ impl Variable {
     }
 }
 
+/// The section of a statement, by the indices of the sections' first ones.
+pub fn section_at(sections: &[(String, usize)], index: usize) -> &str {
+    let begun = sections.partition_point(|(_, start)| *start <= index);
+    begun.checked_sub(1).map_or("", |last| sections[last].0.as_str())
+}
+
+impl Statement {
+    /// The names that it reads.
+    pub fn reads(&self) -> impl Iterator<Item = &str> + Clone {
+        [&self.a, &self.b].into_iter().filter_map(Operand::name)
+    }
+}
+
 impl Operation {
+    /// Whether its operands can be exchanged, with the same bits.
+    pub fn is_commutative(self) -> bool {
+        matches!(self, Self::Add | Self::Mul)
+    }
+
     /// Whether it has one operand.
     pub fn is_unary(self) -> bool {
         matches!(self, Self::Copy | Self::Neg | Self::SinCos | Self::Sqrt)

@@ -274,8 +274,8 @@ macro_rules! implement_dynamics {
         }
     };
     (@accelerations $name:ident $function:ident($($wrench:ident: $type:ty => $slice:expr),*)) => {
-        /// The accelerations, unless an input is not finite or the matrix singular. Inlined where registers are few: the
-        /// caller's state and forces are then in no frame, nor is the error that it does not look at.
+        /// The accelerations, unless an input is not finite or the matrix singular. Inlined: the caller's state and forces are
+        /// then not passed through memory, and where registers are few in no frame, nor is the error that it does not look at.
         #[inline(always)]
         #[allow(clippy::too_many_arguments, reason = "those of the inherent function, and the result")]
         fn $name<T: Real>(

@@ -29,7 +29,7 @@ pub fn fuse<'a>(
     sources: &dyn Fn(&'a str) -> Vec<&'a str>,
 ) -> HashMap<usize, Option<MultiplyAdd<'a>>> {
     let mut uses: HashMap<&str, usize> = HashMap::new();
-    let operands = statements.iter().flat_map(|statement| [&statement.a, &statement.b]).filter_map(Operand::name);
+    let operands = statements.iter().flat_map(Statement::reads);
     operands.chain(results.iter().copied()).for_each(|name| *uses.entry(name).or_default() += 1);
     let products: HashMap<&str, usize> = (statements.iter().enumerate())
         .filter(|(_, statement)| statement.operation == Operation::Mul)

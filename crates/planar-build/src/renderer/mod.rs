@@ -61,7 +61,7 @@ pub struct Module<'a> {
 pub struct Arithmetic {
     /// Products and sums are fused, as the feature `fused` of `planar-capture` wants it.
     pub is_fused: bool,
-    /// Arms of as many links are computed in pairs, where the module uses `planar_capture`: for processors that have
+    /// Arms of one structure are computed in pairs, where the module uses `planar_capture`: for processors that have
     /// vectors. The results have the same bits.
     pub is_paired: bool,
 }
@@ -146,7 +146,7 @@ fn context(graph: &Graph, module: &Module<'_>) -> Value {
     let constants: Vec<&str> = graph.constants.values.iter().map(|constant| constant.name.as_str()).collect();
     let set_up = Scope::parameters(graph, Syntax::Rust).lines(&[], &graph.constants.statements, &constants);
     let Arithmetic { is_fused, is_paired } = module.arithmetic;
-    let symmetry = if is_paired { Symmetry::of(graph) } else { Symmetry::default() };
+    let symmetry = if is_paired && !module.standalone { Symmetry::of(graph) } else { Symmetry::default() };
     let order = symmetry.side_by_side(&constants);
     let constant = |name: &&str| graph.constants.values.iter().find(|constant| constant.name == *name);
     let families: Vec<_> =
@@ -170,8 +170,8 @@ fn context(graph: &Graph, module: &Module<'_>) -> Value {
         "constants": {"statements": body(&set_up), "values": order.iter().filter_map(constant).collect::<Vec<_>>(), "names": order},
         "steps": steps(),
         "merged": merged_links(graph),
-        "has_pairs": families.iter().any(|(_, has_pairs)| *has_pairs),
-        "families": families.into_iter().map(|(family, _)| family).collect::<Vec<_>>(),
+        "has_pairs": families.iter().any(|family| family["has_pairs"] == true),
+        "families": families,
     })
 }
 
@@ -180,8 +180,7 @@ fn body(lines: &[String]) -> String {
     indented(&lines.join("\n"), 8).trim_end().to_owned()
 }
 
-/// A family, and whether anything of it is paired.
-fn render_family(graph: &Graph, family: &Family, is_fused: bool, symmetry: &Symmetry) -> (Value, bool) {
+fn render_family(graph: &Graph, family: &Family, is_fused: bool, symmetry: &Symmetry) -> Value {
     let Family { name, description, configuration, functions } = family;
     let mut symmetry = symmetry.clone();
     let stage = paired(&mut symmetry, &configuration.sections, &configuration.statements, &[], &Names::default());
@@ -191,7 +190,7 @@ fn render_family(graph: &Graph, family: &Family, is_fused: bool, symmetry: &Symm
     let (fields, names) = stage.names.fields(&values);
     let field = |name: &&str| {
         let is_pair = stage.names.is_pair(name);
-        let text = scope.operand_named(name);
+        let text = scope.value(name);
         json!({
             "name": name,
             "type": if is_pair { "Pair<T>" } else { "T" },
@@ -199,22 +198,20 @@ fn render_family(graph: &Graph, family: &Family, is_fused: bool, symmetry: &Symm
         })
     };
     let shown: Vec<Value> = fields.iter().map(field).collect();
-    let functions: Vec<(Value, bool)> = (functions.iter())
+    let functions: Vec<Value> = (functions.iter())
         .map(|function| render_function(graph, function, &fields, &names, is_fused, &symmetry))
         .collect();
-    let has_pairs = stage.names.has_pairs() || functions.iter().any(|(_, has_pairs)| *has_pairs);
-    let functions: Vec<Value> = functions.into_iter().map(|(function, _)| function).collect();
-    let needs_model = functions.iter().any(|function| function["needs_model"] == true);
-    let family = json!({
+    let has = |key: &str| functions.iter().any(|function| function[key] == true);
+    json!({
         "name": name,
         "type": format!("{}Configuration", camel_case(name)),
         "description": description,
         "statements": body(&[bindings(&lines, "self", Syntax::Rust), lines].concat()),
         "values": shown,
-        "needs_model": needs_model,
+        "needs_model": has("needs_model"),
+        "has_pairs": stage.names.has_pairs() || has("has_pairs"),
         "functions": functions,
-    });
-    (family, has_pairs)
+    })
 }
 
 fn render_function(
@@ -224,7 +221,7 @@ fn render_function(
     names: &Names,
     is_fused: bool,
     symmetry: &Symmetry,
-) -> (Value, bool) {
+) -> Value {
     let Function { name, outputs, sections, statements, .. } = function;
     let pairs: Vec<_> = outputs.iter().flat_map(|output| counterparts(symmetry, output)).collect();
     let stage = paired(&mut symmetry.clone(), sections, statements, &pairs, names);
@@ -245,7 +242,7 @@ fn render_function(
     let of_call = |input: &&Value| input["name"] != "base_pose" && input["name"] != "joint_angles";
     let call_inputs: Vec<&Value> = inputs.iter().filter(of_call).collect();
     let call_names: Vec<&Value> = call_inputs.iter().map(|input| &input["name"]).collect();
-    let rendered = json!({
+    json!({
         "name": name,
         "docs": doc_text::function(function),
         "struct": (!single).then(|| camel_case(name)),
@@ -255,9 +252,9 @@ fn render_function(
         "call_inputs": call_inputs,
         "call_names": call_names,
         "needs_model": !bindings.is_empty(),
+        "has_pairs": stage.names.has_pairs(),
         "statements": body(&[bindings, lines].concat()),
-    });
-    (rendered, stage.names.has_pairs())
+    })
 }
 
 /// The elements of an output that are computed, with those of the other arms, each once.

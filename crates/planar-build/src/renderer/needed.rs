@@ -1,6 +1,6 @@
 //! The statements of several stages that some results need, as one stage.
 
-use crate::format::{Operand, Statement};
+use crate::format::{Statement, section_at};
 use std::collections::HashSet;
 
 /// A stage: its sections and its statements.
@@ -13,9 +13,8 @@ pub fn needed(stages: &[Stage<'_>], results: &[&str]) -> (Vec<(String, usize)>, 
     for (sections, statements) in stages.iter().rev() {
         for (index, statement) in statements.iter().enumerate().rev() {
             if statement.targets.names().iter().any(|name| wanted.contains(name)) {
-                wanted.extend([&statement.a, &statement.b].into_iter().filter_map(Operand::name));
-                let begun = sections.partition_point(|(_, start)| *start <= index);
-                kept.push((begun.checked_sub(1).map_or("", |last| sections[last].0.as_str()), statement));
+                wanted.extend(statement.reads());
+                kept.push((section_at(sections, index), statement));
             }
         }
     }

@@ -14,7 +14,7 @@ pub use stage::Stage;
 use super::symmetry::Symmetry;
 use crate::format::Statement;
 use cost::drop_costly;
-use pairing::{Pairing, before};
+use pairing::{Pairing, before, is_paired};
 use writer::Writer;
 
 /// Stages of more statements are not paired: they are limited by memory, and a compiler takes many times as long for them.
@@ -43,7 +43,8 @@ pub fn paired(
 fn found(symmetry: &mut Symmetry, statements: &[Statement], results: &[(&str, &str)], earlier: &Names) -> Vec<Pairing> {
     let mut pairs = symmetry.extend(statements);
     pairs.extend(before(symmetry, statements, &pairs, results));
-    let mut pairings = pairs.into_iter().map(|pair| Pairing::new(symmetry, statements, pair)).collect();
+    let pairs = pairs.into_iter().filter(|[first, _]| is_paired(&statements[*first]));
+    let mut pairings = pairs.map(|pair| Pairing::new(symmetry, statements, pair)).collect();
     while drop_costly(&mut pairings, statements, earlier) {}
     pairings
 }

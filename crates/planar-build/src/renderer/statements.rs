@@ -3,7 +3,7 @@
 use super::fused::{MultiplyAdd, fuse};
 use super::pairs::{Half, Names};
 use super::syntax::{Place, Syntax};
-use crate::format::{Graph, Operand, Operation, Statement, Variable};
+use crate::format::{Graph, Operand, Operation, Statement, Variable, section_at};
 use std::collections::{HashMap, HashSet};
 
 /// Most `let` statements of a block. Each opens a scope inside the one before it; a compiler that follows thousands of
@@ -120,18 +120,15 @@ impl<'a> Scope<'a> {
         statements: &'a [Statement],
         results: &[&'a str],
     ) -> Vec<Line<'a>> {
-        let section = |index: usize| {
-            let begun = sections.partition_point(|(_, start)| *start <= index);
-            begun.checked_sub(1).map_or("", |last| sections[last].0.as_str())
-        };
+        let section = |index: usize| section_at(sections, index);
         let mut uses: HashMap<&str, Vec<&str>> = HashMap::new(); // the sections, "results" aside, that use a name
         for (index, statement) in statements.iter().enumerate() {
-            for name in [&statement.a, &statement.b].into_iter().filter_map(Operand::name) {
+            for name in statement.reads() {
                 uses.entry(name).or_default().push(section(index));
             }
         }
         // where a half of a pair is used, or a pair of two numbers, the expression has to have a name
-        let operands = statements.iter().flat_map(|statement| [&statement.a, &statement.b]).filter_map(Operand::name);
+        let operands = statements.iter().flat_map(Statement::reads);
         let parts = operands.flat_map(|name| self.sources(name).into_iter().filter(move |source| *source != name));
         let results: Vec<&str> = results.iter().copied().chain(parts).collect();
         let sources = |name: &'a str| self.sources(name);
@@ -243,17 +240,16 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// A value by its name.
-    pub fn operand_named(&self, name: &str) -> String {
-        self.part(&Operand::Name(name.to_owned()))
-    }
-
     /// An operand that is one number, or a pair that has a name.
     fn part(&self, operand: &Operand) -> String {
-        let name = match operand {
-            Operand::Number(number) => return self.syntax.number(*number),
-            Operand::Name(name) => name.as_str(),
-        };
+        match operand {
+            Operand::Number(number) => self.syntax.number(*number),
+            Operand::Name(name) => self.value(name),
+        }
+    }
+
+    /// A value that has a name, or that is half of a pair that has one.
+    pub fn value(&self, name: &str) -> String {
         if let Some((pair, half)) = self.pairs.and_then(|names| names.halves.get(name)) {
             let half = if *half == Half::First { "first" } else { "second" };
             return format!("{}.{half}", self.named(pair));

@@ -24,7 +24,7 @@ struct Counterpart {
 /// A statement's operation and operands, by which it is found.
 type Key = (Operation, Name, Name);
 
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 enum Name {
     Number(u64),
     Name(String),
@@ -159,8 +159,7 @@ impl Symmetry {
 
     /// Two statements in the order of their arms.
     pub fn ordered(&self, statements: &[Statement], [index, partner]: [usize; 2]) -> [usize; 2] {
-        let operands = [&statements[index].a, &statements[index].b];
-        let is_first = operands.into_iter().filter_map(Operand::name).find_map(|name| self.is_first(name));
+        let is_first = statements[index].reads().find_map(|name| self.is_first(name));
         if is_first.unwrap_or(index < partner) { [index, partner] } else { [partner, index] }
     }
 
@@ -175,15 +174,7 @@ impl Symmetry {
 
 /// The operands of sums and products in one order.
 fn key(operation: Operation, a: Name, b: Name) -> Key {
-    let is_commutative = matches!(operation, Operation::Add | Operation::Mul);
-    if is_commutative && order(&b) < order(&a) { (operation, b, a) } else { (operation, a, b) }
-}
-
-fn order(name: &Name) -> (u64, &str) {
-    match name {
-        Name::Number(bits) => (*bits, ""),
-        Name::Name(name) => (0, name),
-    }
+    if operation.is_commutative() && b < a { (operation, b, a) } else { (operation, a, b) }
 }
 
 fn name(operand: &Operand) -> Name {

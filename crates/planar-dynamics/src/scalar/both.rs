@@ -32,7 +32,14 @@ macro_rules! number_by_number {
     };
 }
 
+/// Those of a float: where the processor has no vectors the trait's.
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+macro_rules! at_once {
+    ($float:ident) => {};
+}
+
 /// Those of a float: vectors for `f64`.
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 macro_rules! at_once {
     (f32) => {};
     (f64) => {
@@ -40,20 +47,17 @@ macro_rules! at_once {
     };
     ($($method:ident $operator:tt)*) => {
         $(
-            #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
             #[inline(always)]
             fn $method(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
                 (wide::f64x2::new(a) $operator wide::f64x2::new(b)).to_array()
             }
         )*
 
-        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
         #[inline(always)]
         fn neg_both(a: [f64; 2]) -> [f64; 2] {
             (-wide::f64x2::new(a)).to_array()
         }
 
-        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
         #[inline(always)]
         fn mul_add_both(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> [f64; 2] {
             let [a, b, c] = [a, b, c].map(wide::f64x2::new);

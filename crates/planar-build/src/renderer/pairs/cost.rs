@@ -1,6 +1,6 @@
 //! What pairs cost beside the operations that they save: numbers have to be joined to pairs, and pairs to be parted.
 
-use super::names::{Half, Names};
+use super::names::Names;
 use super::pairing::Pairing;
 use crate::format::{Operand, Operation, Statement};
 use std::collections::{HashMap, HashSet};
@@ -18,15 +18,8 @@ pub fn drop_costly(pairings: &mut Vec<Pairing>, statements: &[Statement], earlie
         let [first, second] = [first, second].map(|index| statements[*index].targets.names());
         halves.extend(first.into_iter().zip(second));
     }
-    let is_pair = |[a, b]: &[Operand; 2]| match (a.name(), b.name()) {
-        (Some(a), Some(b)) => {
-            let of = |name: &str| earlier.halves.get(name).map(|(pair, half)| (pair, *half));
-            let is_earlier = matches!(
-                (of(a), of(b)),
-                (Some((pair, Half::First)), Some((other, Half::Second))) if pair == other
-            );
-            a == b || halves.get(a) == Some(&b) || is_earlier
-        }
+    let is_pair = |operands: &[Operand; 2]| match operands.each_ref().map(Operand::name) {
+        [Some(a), Some(b)] => a == b || halves.get(a) == Some(&b) || earlier.pair_of(operands).is_some(),
         _ => true,
     };
     let mut joined: HashMap<String, u32> = HashMap::new();
@@ -36,9 +29,9 @@ pub fn drop_costly(pairings: &mut Vec<Pairing>, statements: &[Statement], earlie
     }
     // what single statements, joined operands and results need
     let singles = statements.iter().enumerate().filter(|(index, _)| !is_in_pair.contains(index));
-    let singles = singles.flat_map(|(_, statement)| [&statement.a, &statement.b]);
+    let singles = singles.flat_map(|(_, statement)| statement.reads());
     let parts = pairings.iter().flat_map(|pairing| &pairing.operands).filter(|pair| !is_pair(pair)).flatten();
-    let parted: HashSet<&str> = singles.chain(parts).filter_map(Operand::name).collect();
+    let parted: HashSet<&str> = singles.chain(parts.filter_map(Operand::name)).collect();
     let saved = |pairing: &Pairing| {
         let operation = statements[pairing.statements[0]].operation;
         let operation = if operation == Operation::Div { 5.0 } else { 1.0 };
@@ -50,11 +43,11 @@ pub fn drop_costly(pairings: &mut Vec<Pairing>, statements: &[Statement], earlie
         let part = if second.iter().any(|name| parted.contains(name)) { 0.5 } else { 0.0 };
         operation - pairing.operands.iter().map(join).sum::<f64>() - part
     };
-    let before = pairings.len();
-    let is_kept = pairings
-        .iter()
-        .map(|pairing| statements[pairing.statements[0]].operation == Operation::SinCos || saved(pairing) > 0.0);
-    let mut is_kept = is_kept.collect::<Vec<_>>().into_iter();
-    pairings.retain(|_| is_kept.next().unwrap_or(true));
-    pairings.len() < before
+    // sines stay numbers
+    let is_sine = |pairing: &&Pairing| statements[pairing.statements[0]].operation == Operation::SinCos;
+    let kept: Vec<Pairing> =
+        pairings.iter().filter(|pairing| is_sine(pairing) || saved(pairing) > 0.0).cloned().collect();
+    let has_dropped = kept.len() < pairings.len();
+    *pairings = kept;
+    has_dropped
 }

@@ -33,7 +33,7 @@ impl Names {
         for value in values {
             let field = self.halves.get(*value).map(|(pair, _)| pair.as_str()).filter(|pair| is_whole(pair));
             let field = field.unwrap_or(value);
-            if fields.last() != Some(&field) && !fields.contains(&field) {
+            if !fields.contains(&field) {
                 fields.push(field);
             }
         }
@@ -52,20 +52,26 @@ impl Names {
         self.pairs.contains(name)
     }
 
-    /// Two operands as one: the pair whose halves they are, or one that is made of them.
-    pub fn operand(&mut self, [a, b]: &[Operand; 2]) -> Operand {
+    /// The pair whose halves two operands are, in their order.
+    pub fn pair_of(&self, operands: &[Operand; 2]) -> Option<&str> {
         let half = |operand: &Operand| operand.name().and_then(|name| self.halves.get(name));
-        if let (Some((pair, Half::First)), Some((other, Half::Second))) = (half(a), half(b))
-            && pair == other
-        {
-            return Operand::Name(pair.clone());
+        match operands.each_ref().map(half) {
+            [Some((pair, Half::First)), Some((other, Half::Second))] if pair == other => Some(pair),
+            _ => None,
+        }
+    }
+
+    /// Two operands as one: the pair whose halves they are, or one that is made of them.
+    pub fn operand(&mut self, operands: &[Operand; 2]) -> Operand {
+        if let Some(pair) = self.pair_of(operands) {
+            return Operand::Name(pair.to_owned());
         }
         let text = |operand: &Operand| match operand {
             Operand::Number(number) => format!("{number:?}"),
             Operand::Name(name) => name.clone(),
         };
-        let key = format!("{} & {}", text(a), text(b));
-        self.joined.entry(key.clone()).or_insert_with(|| [a.clone(), b.clone()]);
+        let key = operands.each_ref().map(text).join(" & ");
+        self.joined.entry(key.clone()).or_insert_with(|| operands.clone());
         Operand::Name(key)
     }
 

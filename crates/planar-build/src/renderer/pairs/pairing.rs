@@ -26,9 +26,7 @@ pub fn before(
     found: &[[usize; 2]],
     results: &[(&str, &str)],
 ) -> Vec<[usize; 2]> {
-    let assigned: HashMap<&str, usize> = (statements.iter().enumerate())
-        .flat_map(|(index, statement)| statement.targets.names().into_iter().map(move |name| (name, index)))
-        .collect();
+    let assigned = assigned(statements);
     let mut known: HashSet<usize> = found.iter().flatten().copied().collect();
     let mut pairs = Vec::new();
     let mut left: Vec<(&str, &str)> = results.to_vec();
@@ -47,6 +45,13 @@ pub fn before(
         }
     }
     pairs
+}
+
+/// The statement that assigns a name.
+pub fn assigned(statements: &[Statement]) -> HashMap<&str, usize> {
+    (statements.iter().enumerate())
+        .flat_map(|(index, statement)| statement.targets.names().into_iter().map(move |name| (name, index)))
+        .collect()
 }
 
 /// Whether pairs have the operation; sines are computed together anyway, beside each other.
@@ -68,8 +73,8 @@ fn together<'a>(symmetry: &Symmetry, statements: &'a [Statement], pair: [usize; 
         (Operand::Number(a), Operand::Number(b)) => a.to_bits() == b.to_bits(),
         _ => false,
     };
-    let is_commutative = matches!(first.operation, Operation::Add | Operation::Mul);
     let straight = are_counterparts(&first.a, &second.a) || are_counterparts(&first.b, &second.b);
+    let is_commutative = first.operation.is_commutative();
     if is_commutative && !straight && (are_counterparts(&first.a, &second.b) || are_counterparts(&first.b, &second.a)) {
         vec![[&first.a, &second.b], [&first.b, &second.a]]
     } else {

@@ -130,7 +130,7 @@ fn pairs_have_the_bits_of_their_statements() {
     assert!(*dual > 700 && *three > 1000, "{saved:?}");
 }
 
-/// Two arms of one joint, whose names begin with `joint_angles`, `p` and `q`.
+/// Two arms with an input, `x`, and a parameter, `p`, each.
 fn symmetry() -> Symmetry {
     let mut symmetry = Symmetry::default();
     for [a, b] in [["x[0]", "x[1]"], ["p1", "p2"]] {

@@ -1,9 +1,9 @@
 //! The statements of a stage with its pairs, each after those that it needs.
 
 use super::names::{Half, Names};
-use super::pairing::{Pairing, is_paired};
+use super::pairing::{Pairing, assigned};
 use super::stage::Stage;
-use crate::format::{Operand, Operation, Statement, Targets};
+use crate::format::{Operand, Operation, Statement, Targets, section_at};
 use std::collections::{HashMap, HashSet};
 
 /// Writes statements, each after those that it needs.
@@ -35,15 +35,13 @@ impl<'a> Writer<'a> {
         pairings: &'a [Pairing],
         earlier: &'a Names,
     ) -> Self {
-        let pairing = pairings.iter().enumerate().filter(|(_, pairing)| is_paired(&statements[pairing.statements[0]]));
+        let places = pairings.iter().enumerate();
         Self {
             sections,
             statements,
             pairings,
-            pairing: pairing.flat_map(|(place, pairing)| pairing.statements.map(|index| (index, place))).collect(),
-            assigned: (statements.iter().enumerate())
-                .flat_map(|(index, statement)| statement.targets.names().into_iter().map(move |name| (name, index)))
-                .collect(),
+            pairing: places.flat_map(|(place, pairing)| pairing.statements.map(|index| (index, place))).collect(),
+            assigned: assigned(statements),
             state: vec![State::Unwritten; statements.len()],
             taken: statements.iter().flat_map(names).collect(),
             stage: Stage { names: earlier.clone(), ..Stage::default() },
@@ -72,8 +70,7 @@ impl<'a> Writer<'a> {
             self.state[*index] = State::Begun;
         }
         for index in &both {
-            let Statement { a, b, .. } = &self.statements[*index];
-            for name in [a, b].into_iter().filter_map(Operand::name) {
+            for name in self.statements[*index].reads() {
                 if let Some(needed) = self.assigned.get(name) {
                     self.statement(*needed)?;
                 }
@@ -119,11 +116,8 @@ impl<'a> Writer<'a> {
 
     /// The section of a statement; of two arms, of both.
     fn section_of(&self, both: &[usize]) -> String {
-        let section = |index: usize| {
-            let begun = self.sections.partition_point(|(_, start)| *start <= index);
-            begun.checked_sub(1).map_or("", |last| self.sections[last].0.as_str())
-        };
-        let [a, b] = [both.first(), both.last()].map(|index| index.map_or("", |index| section(*index)));
+        let [a, b] =
+            [both.first(), both.last()].map(|index| index.map_or("", |index| section_at(self.sections, *index)));
         let arm = |text: &'a str| text.strip_prefix("arm ").and_then(|rest| rest.split_once(", "));
         match [arm(a), arm(b)] {
             [Some((first, what)), Some((second, same))] if what == same && first != second => {
@@ -137,7 +131,7 @@ impl<'a> Writer<'a> {
     fn with_names_for_joined(self) -> Stage {
         let Stage { sections, statements, mut names } = self.stage;
         let mut uses: HashMap<&str, usize> = HashMap::new();
-        let operands = statements.iter().flat_map(|statement| [&statement.a, &statement.b]).filter_map(Operand::name);
+        let operands = statements.iter().flat_map(Statement::reads);
         operands.filter(|name| names.joined.contains_key(*name)).for_each(|name| *uses.entry(name).or_default() += 1);
         let is_named = |key: &str| {
             let is_number = names.joined.get(key).is_some_and(|[a, _]| a.name().is_none());
@@ -178,6 +172,5 @@ impl<'a> Writer<'a> {
 
 /// What a statement assigns and what it reads.
 fn names(statement: &Statement) -> impl Iterator<Item = &str> {
-    let read = [&statement.a, &statement.b].into_iter().filter_map(Operand::name);
-    statement.targets.names().into_iter().chain(read)
+    statement.targets.names().into_iter().chain(statement.reads())
 }
