@@ -14,7 +14,7 @@ from .functions import Functions
 from .inputs import INPUTS, input_shapes
 from .layout import content_hash
 from .regrouping import Regrouping
-from .signatures import Family, Function
+from .signatures import Family, Function, Output
 from .statements import NodeSection, Statements, count, evaluation_order
 from .symbols import Symbols
 from .value_numbering import Stage, ValueNumbering
@@ -69,7 +69,7 @@ def constants_graph(imported: CasadiImport, symbols: Symbols, families: list[dic
     """Statements of the constants that the families need; ``values`` are those that they read."""
     numbering, statements = imported.numbering, Statements(imported.numbering, "p", {})
     stages = [stage for family in families for stage in (family["configuration"], *family["functions"])]
-    read = {name for stage in stages for name in operands(stage["statements"], stage.get("outputs", []))}
+    read = {name for stage in stages for name in operands(stage["statements"], results_of(stage))}
     needed, pending = set(), [*(read & imported.constants.keys())]
     while pending:
         name = pending.pop()
@@ -91,7 +91,7 @@ def family_graph(imported: CasadiImport, family: Family) -> dict:
     numbering = imported.numbering
     shared, *own = imported.section_nodes([family.sections, *(function.sections for function in family.functions)])
     results = [
-        [i for _, values in sections[-len(function.outputs) :] for i in values]
+        [i for _, values in sections[-len(function.results) :] for i in values]
         for sections, function in zip(own, family.functions, strict=True)
     ]
     shared, *own = (with_negated(numbering, sections) for sections in (shared, *own))
@@ -104,7 +104,7 @@ def family_graph(imported: CasadiImport, family: Family) -> dict:
         function_graph(numbering, configuration.names, function, [*shared, *sections], roots)
         for function, sections, roots in zip(family.functions, own, results, strict=True)
     ]
-    used = {name for function in functions for name in operands(function["statements"], function["outputs"])}
+    used = {name for function in functions for name in operands(function["statements"], results_of(function))}
     targets = [name for line in configuration.lines for name in (line[0] if line[1] == "sin_cos" else [line[0]])]
     return {
         "name": family.name,
@@ -170,7 +170,12 @@ def function_graph(
         is_of_call = numbering[i].stage == Stage.CALL or is_parametric(numbering, i, call)
         if i in reached and is_of_call and not numbering[i].is_leaf:
             call.assign(i, section)
+    for_outputs = numbering.reachable(results[: sum(len(output.elements) for output in function.outputs)])
     elements = iter(results)
+    outputs, matrices = (
+        [output_graph(output, [call.operand(next(elements)) for _ in output.elements]) for output in part]
+        for part in (function.outputs, function.matrices)
+    )
     return {
         "name": function.name,
         "description": function.description,
@@ -179,26 +184,33 @@ def function_graph(
         "inputs": function.inputs,
         "sections": call.sections,
         "statements": call.lines,
-        "outputs": [
-            {
-                "name": output.name,
-                "shape": output.shape,
-                "unit": output.unit,
-                "description": output.description,
-                "elements": [call.operand(next(elements)) for _ in output.elements],
-                **({"derivative": vars(output.derivative)} if output.derivative else {}),
-            }
-            for output in function.outputs
-        ],
+        "outputs": outputs,
+        **({"matrices": matrices} if matrices else {}),
         "operations": count(
-            numbering, (i for i in reached if numbering[i].stage > Stage.PARAMETERS or i in call.names)
+            numbering, (i for i in for_outputs if numbering[i].stage > Stage.PARAMETERS or i in call.names)
         ),
+    }
+
+
+def output_graph(output: Output, elements: list[str | float]) -> dict:
+    return {
+        "name": output.name,
+        "shape": output.shape,
+        "unit": output.unit,
+        "description": output.description,
+        "elements": elements,
+        **({"derivative": vars(output.derivative)} if output.derivative else {}),
     }
 
 
 def is_parametric(numbering: ValueNumbering, i: int, call: Statements) -> bool:
     """Whether a node depends on parameters alone and has no name yet: only derivatives by parameters have such."""
     return numbering[i].stage == Stage.PARAMETERS and i not in call.names
+
+
+def results_of(stage: dict) -> list[dict]:
+    """What the statements of a call are for."""
+    return [*stage.get("outputs", []), *stage.get("matrices", [])]
 
 
 def operands(statements: Iterable[list], outputs: Iterable[dict] = ()) -> list[str]:

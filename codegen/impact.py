@@ -4,6 +4,9 @@ The contact point of a target has the velocity v + omega x r, so that J_t = [[1,
 target in eq. (5); the print has the cross-product matrix of r with the other sign. After the capture, t_tf = K v with
 K = J_t^-1 J, eqs. (13) and (14). The momentum balance of eqs. (10) and (11) then reads G v_f = H, eq. (15). It is
 exact in the full coordinates, where J, I and θ̇ are [J_be J_me], M and v of eq. (1).
+
+In the reduced coordinates all joints are coupled, and single assignments grow with their cube. Above a size a module
+computes eqs. (15) and (16) in loops, from I and J, which the function then has as matrices.
 """
 
 import casadi as ca
@@ -13,6 +16,10 @@ from .inputs import CONFIGURATION, STATE, TARGETS, Inputs
 from .linear_algebra import ldlt_solve, matrix_times
 from .reduced_dynamics import ReducedDynamics
 from .signatures import Family, Function, Section, matrix, smallest_pivot, vector
+
+# Products in G and in its factorization: with more of them loops are not slower than single assignments, which leave
+# the processor's instruction cache, and compile faster. Two arms of five links have 933, three of three 972.
+LARGEST_IN_ASSIGNMENTS = 950
 
 
 def target_jacobian(jacobian: ca.SX, arm: int, contact: tuple[ca.SX, ca.SX]) -> list[ca.SX]:
@@ -48,12 +55,19 @@ def impact_equations(
     return ca.tril2symm(g), h, sections
 
 
+def is_in_loops(arms: int, joints: int) -> bool:
+    """Whether a module computes the reduced impact in loops."""
+    return 3 * arms * joints**2 + joints**3 // 3 > LARGEST_IN_ASSIGNMENTS
+
+
 def reduced_impact(reduced: ReducedDynamics, inputs: Inputs) -> Function:
     """Eqs. (15) and (16) in the reduced coordinates, as the paper has them."""
     inertia, jacobian = reduced.generalized_inertia(), reduced.generalized_jacobian()
     reduced_sections = [Section("generalized inertia", inertia), Section("generalized Jacobian", jacobian)]
     g, h, equations = impact_equations(jacobian, inertia, matrix_times(inertia, inputs.joint_rates), inputs)
-    rates, pivot, solution = ldlt_solve(reduced.symbols, g, h, [*reversed(range(reduced.symbols.joints))])
+    joints = reduced.symbols.joints
+    rates, pivot, solution = ldlt_solve(reduced.symbols, g, h, [*reversed(range(joints))])
+    matrices = [*reduced.matrices()] if is_in_loops(inputs.contacts.shape[1], joints) else []
     return Function(
         "reduced_impact",
         "Impact by the paper's equations; exact only if the robot has no momentum after it.",
@@ -67,6 +81,7 @@ def reduced_impact(reduced: ReducedDynamics, inputs: Inputs) -> Function:
             smallest_pivot(pivot),
         ],
         [*reduced_sections, *equations, *solution],
+        matrices,
     )
 
 

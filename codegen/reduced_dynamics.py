@@ -5,7 +5,7 @@ import casadi as ca
 from .equations_of_motion import EquationsOfMotion
 from .inputs import CONFIGURATION, STATE
 from .plane_vectors import add, cross, dot, scale, subtract
-from .signatures import Family, Function, Section, matrix, smallest_pivot, vector
+from .signatures import Family, Function, Output, Section, matrix, smallest_pivot, vector
 from .symbols import Symbols
 
 
@@ -90,16 +90,21 @@ class ReducedDynamics:
                 jacobian[3 * i : 3 * i + 3, joint] = ca.vertcat(*column)
         return jacobian
 
+    def matrices(self) -> tuple[Output, Output]:
+        """(I, J)."""
+        inertia = matrix("generalized_inertia", "kg m^2", "symmetric, row-major", self.generalized_inertia())
+        jacobian = matrix(
+            "generalized_jacobian",
+            "1, m, m per arm",
+            "3 rows [omega, vx, vy] per arm, inertial axes: end-effector twists of a robot of zero momentum",
+            self.generalized_jacobian(),
+        )
+        return inertia, jacobian
+
 
 def reduced_dynamics_family(reduced: ReducedDynamics) -> Family:
-    inertia = matrix("generalized_inertia", "kg m^2", "symmetric, row-major", reduced.generalized_inertia())
+    inertia, jacobian = reduced.matrices()
     bias = vector("generalized_bias", "N m", "arm by arm", reduced.generalized_bias())
-    jacobian = matrix(
-        "generalized_jacobian",
-        "1, m, m per arm",
-        "3 rows [omega, vx, vy] per arm, inertial axes: end-effector twists of a robot of zero momentum",
-        reduced.generalized_jacobian(),
-    )
     pivot = smallest_pivot(reduced.smallest_pivot())
     source = "Raina & Shah (2017), eq. (2); Umetani & Yoshida (1989)"
     all_together = Function(

@@ -64,11 +64,17 @@ class Function:
     inputs: list[str]
     outputs: list[Output]
     own_sections: list[Section] = field(default_factory=list)  # after those of the family
+    matrices: list[Output] = field(default_factory=list)  # from which a routine in loops has the outputs, too
+
+    @property
+    def results(self) -> list[Output]:
+        """The outputs, then the matrices."""
+        return [*self.outputs, *self.matrices]
 
     @property
     def sections(self) -> list[Section]:
-        """The sections of this function alone; those of its outputs are the last."""
-        return [*self.own_sections, *(output.section for output in self.outputs)]
+        """The sections of this function alone; those of its results are the last."""
+        return [*self.own_sections, *(result.section for result in self.results)]
 
 
 @dataclass(frozen=True)

@@ -114,8 +114,8 @@ pub use planar_dynamics::lanes;
 #[doc(hidden)]
 pub use planar_dynamics::validate;
 pub use planar_dynamics::{
-    body, contact, control, dynamics, error, formulation, impact, implement_dynamics, include_layout, manifest,
-    quantity, scalar, state, target, trajectory,
+    body, contact, control, dynamics, error, formulation, impact, impact_equations, implement_dynamics, include_layout,
+    manifest, quantity, scalar, state, target, trajectory,
 };
 
 #[cfg(feature = "build")]

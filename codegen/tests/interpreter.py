@@ -27,7 +27,8 @@ class Interpreter:
         self._run(graph["constants"]["statements"], self.values)
         self.functions = {f["name"]: (family, f) for family in graph["families"] for f in family["functions"]}
 
-    def call(self, name: str, **inputs) -> dict[str, np.ndarray]:
+    def call(self, name: str, results: str = "outputs", **inputs) -> dict[str, np.ndarray]:
+        """The outputs of a function by name, or its matrices."""
         family, function = self.functions[name]
         values = dict(self.values)
         for key in function["inputs"]:
@@ -38,7 +39,7 @@ class Interpreter:
         self._run(function["statements"], values)
         return {
             o["name"]: np.array([self._value(e, values) for e in o["elements"]]).reshape(o["shape"])
-            for o in function["outputs"]
+            for o in function.get(results, [])
         }
 
     @staticmethod

@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from codegen.impact import is_in_loops
+
 from .interpreter import Interpreter
 from .lagrangian import Lagrangian
 from .samples import LAYOUTS, derived, parameters, randomized, states
@@ -63,6 +65,24 @@ def test_equals_the_lagrangian(name, function, sampled):
             assert error <= TOLERANCE, f"{name} {function}.{output}: {error:.1e}, sample {n} of seed {SEED}: {state}"
             if output == "smallest_pivot":
                 assert 0 < value <= 1
+
+
+@pytest.mark.parametrize("name", LAYOUTS)
+def test_matrices_of_loops_are_the_generalized_ones(name, sampled):
+    """Above a size alone, where single assignments would be too many."""
+    arms = LAYOUTS[name].arms
+    for model, state, outputs in sampled(name):
+        matrices = model.call("reduced_impact", "matrices", **state)
+        assert bool(matrices) == is_in_loops(len(arms), sum(len(arm.links) for arm in arms)), name
+        for matrix, value in matrices.items():
+            assert relative_error(value, np.asarray(outputs["reduced_dynamics"][matrix])) <= TOLERANCE, matrix
+    assert [is_in_loops(*size) for size in [(2, 10), (4, 8), (3, 9), (2, 12), (1, 12)]] == [
+        False,
+        False,
+        True,
+        True,
+        True,
+    ]
 
 
 @pytest.mark.parametrize("name", LAYOUTS)

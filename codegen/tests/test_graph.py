@@ -44,6 +44,11 @@ def names_used(statements: list, outputs: list = ()) -> set[str]:
     return {a for a in operands if isinstance(a, str)}
 
 
+def results(function: dict) -> list[dict]:
+    """Outputs, and the matrices from which rendered code has them in loops."""
+    return [*function["outputs"], *function.get("matrices", [])]
+
+
 def elements(graph: dict, inputs: set[str]) -> set[str]:
     """Names of the elements of inputs, `name[i]` or `name[i][j]`."""
     names = set()
@@ -149,7 +154,7 @@ def test_each_name_is_assigned_once_and_known_before_its_use(name):
         for function in family["functions"]:
             known = fixed | set(stage["values"]) | elements(found, set(function["inputs"]) - CONFIGURATION)
             known |= check_statements(function["statements"], known)
-            assert names_used([], function["outputs"]) <= known
+            assert names_used([], results(function)) <= known
 
 
 @pytest.mark.parametrize("name", LAYOUTS)
@@ -160,7 +165,7 @@ def test_every_value_is_used(name):
         statements = family["configuration"]["statements"]
         called = set()
         for function in family["functions"]:
-            used = names_used(function["statements"], function["outputs"])
+            used = names_used(function["statements"], results(function))
             called |= used
             assert all(used.intersection(targets(line)) for line in function["statements"]), function["name"]
             read_by_call = {re.sub(r"\[.*", "", operand) for operand in used}
@@ -180,7 +185,7 @@ def test_everything_public_is_described(name):
     found = derived(LAYOUTS[name])
     inputs = {item["name"]: item for item in found["inputs"]}
     values = [*found["parameters"], *found["constants"]["values"]]
-    outputs = [o for _, function in functions(found) for o in function["outputs"]]
+    outputs = [o for _, function in functions(found) for o in results(function)]
     for item in [*inputs.values(), *values, *outputs]:
         assert item["unit"] and item["description"], item["name"]
         assert re.fullmatch("[a-z][a-z0-9_]*", item["name"])

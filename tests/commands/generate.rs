@@ -386,6 +386,29 @@ fn a_wrong_graph_is_not_rendered() {
     assert!(matches!(graph::read("{}", &layout), Err(GraphError::Format(_))));
 }
 
+/// Rendered code has the results of a large impact from matrices, in loops: these are proved beside its assignments.
+#[test]
+fn a_wrong_matrix_of_loops_is_not_rendered() {
+    let (layout, text) = shipped("triple_arm_3r");
+    let graph: Value = serde_json::from_str(&text).expect("JSON");
+    let families = graph["families"].as_array().expect("families").iter().enumerate();
+    let mut functions = families.flat_map(|(family, found)| {
+        let functions = found["functions"].as_array().expect("functions").iter().enumerate();
+        functions.map(move |(index, function)| (family, index, function))
+    });
+    let (family, index, _) = functions.find(|(.., function)| function["matrices"].is_array()).expect("an impact");
+    for (matrix, [one, other]) in [(0, [0, 80]), (0, [1, 9 * 8]), (1, [0, 80]), (1, [9, 18])] {
+        let mut wrong = graph.clone();
+        let elements = &mut wrong["families"][family]["functions"][index]["matrices"][matrix]["elements"];
+        let taken = elements[one].take();
+        elements[one] = std::mem::replace(&mut elements[other], taken);
+        let found = prove(&layout, &parsed(&wrong.to_string(), &layout));
+        let is_found =
+            matches!(&found, Err(GenerateError::Disagreement { function, .. }) if function == "reduced_impact");
+        assert!(is_found, "{matrix}, {one}, {other}: {found:?}");
+    }
+}
+
 /// A graph without one of its results, or without a function, is not proved by the rest.
 #[test]
 fn a_graph_with_a_result_missing_is_not_proved() {

@@ -118,6 +118,9 @@ pub struct Function {
     pub sections: Vec<(String, usize)>,
     pub statements: Vec<Statement>,
     pub outputs: Vec<Variable>,
+    /// Generalized inertia and Jacobian where rendered code computes the outputs from these, in loops.
+    #[serde(default)]
+    pub matrices: Vec<Variable>,
     /// Those of the configuration that it depends on included.
     pub operations: Operations,
 }
@@ -188,6 +191,18 @@ impl Graph {
     /// The functions of all families.
     pub(crate) fn functions(&self) -> impl Iterator<Item = &Function> + Clone {
         self.families.iter().flat_map(|family| &family.functions)
+    }
+}
+
+impl Function {
+    /// Whether rendered code computes it in loops, from its matrices.
+    pub fn is_in_loops(&self) -> bool {
+        !self.matrices.is_empty()
+    }
+
+    /// What rendered code takes from its statements.
+    pub fn roots(&self) -> &[Variable] {
+        if self.is_in_loops() { &self.matrices } else { &self.outputs }
     }
 }
 

@@ -18,6 +18,7 @@ pub mod dynamics;
 pub mod error;
 pub mod formulation;
 pub mod impact;
+pub mod impact_equations;
 mod implement;
 pub mod integrate;
 mod jacobian_rate;

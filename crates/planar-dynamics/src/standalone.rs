@@ -3,6 +3,9 @@
 pub use crate::scalar::far_angle::{DIGITS, DIGITS_SINGLE};
 pub use crate::scalar::sine::{Coefficients, DOUBLE, SINGLE};
 
+/// Of the modules that compute the paper's impact in loops, besides the others: (module, text).
+pub const IMPACT_EQUATIONS: (&str, &str) = ("impact_equations", include_str!("impact_equations.rs"));
+
 /// (module, text), each after those that it uses.
 pub const PARTS: [(&str, &str); 10] = [
     ("number", include_str!("scalar/number.rs")),

@@ -6,17 +6,40 @@ use planar_capture::generate::prove;
 use planar_capture::layout::Layout;
 use serde_json::{Value, json};
 
-/// The layout of all seeds.
-const LAYOUT: &str = "codegen/layouts/single_arm_2r.toml";
+/// The layouts of the seeds: one arm, and two of one structure, which are computed in pairs.
+const LAYOUTS: [&str; 2] = ["single_arm_2r", "dual_arm_2r"];
 
 pub fn target() -> Target {
-    let whole: Value = serde_json::from_str(&file("codegen/graphs/single_arm_2r.json")).expect("JSON");
-    let families = whole["families"].as_array().expect("families");
-    let mut seeds: Vec<String> = families.iter().map(|family| part(&whole, family).to_string()).collect();
-    // the whole graph takes long, and its parts are enough to read
-    seeds.sort_by_key(String::len);
-    seeds.truncate(3);
-    Target { name: "graph", share: 4, seeds, read }
+    let seeds = LAYOUTS.iter().flat_map(|name| {
+        let whole: Value = serde_json::from_str(&file(&format!("codegen/graphs/{name}.json"))).expect("JSON");
+        let families = whole["families"].as_array().expect("families");
+        let parts: Vec<Value> = families.iter().map(|family| part(&whole, family)).collect();
+        let mut texts: Vec<String> = parts.iter().map(Value::to_string).collect();
+        // the whole graph takes long, and its parts are enough to read
+        texts.sort_by_key(String::len);
+        texts.truncate(3);
+        let impact = parts.into_iter().find(|part| part["families"][0]["name"] == "impact").expect("an impact");
+        texts.push(in_loops(impact).to_string());
+        texts
+    });
+    Target { name: "graph", share: 4, seeds: seeds.collect(), read }
+}
+
+/// The same impact in loops, from matrices of any of its values.
+fn in_loops(mut graph: Value) -> Value {
+    let function = &mut graph["families"][0]["functions"][0];
+    let outputs = function["outputs"].as_array().expect("outputs").iter();
+    let elements = outputs.clone().flat_map(|output| output["elements"].as_array().expect("elements"));
+    let mut elements = elements.cloned().collect::<Vec<_>>().into_iter().cycle();
+    let joints = outputs.clone().nth(1).and_then(|output| output["shape"][0].as_u64()).expect("H");
+    let arms = joints / 2;
+    let shapes = [("generalized_inertia", [joints, joints]), ("generalized_jacobian", [3 * arms, joints])];
+    let matrices = shapes.map(|(name, [rows, columns])| {
+        let elements: Vec<Value> = (0..rows * columns).filter_map(|_| elements.next()).collect();
+        json!({"name": name, "shape": [rows, columns], "unit": "1", "description": "a matrix", "elements": elements})
+    });
+    function["matrices"] = json!(matrices);
+    graph
 }
 
 /// A graph of one function, the first of a family, with the reference vectors of one state.
@@ -40,10 +63,13 @@ fn part(whole: &Value, family: &Value) -> Value {
 
 fn read(bytes: &[u8]) -> Result<bool, String> {
     thread_local! {
-        static OF: Layout = Layout::parse(&file(LAYOUT), "layout").expect("a layout");
+        static OF: [Layout; 2] = LAYOUTS.map(|name| {
+            Layout::parse(&file(&format!("codegen/layouts/{name}.toml")), "layout").expect("a layout")
+        });
     }
     let text = String::from_utf8_lossy(bytes);
-    OF.with(|layout| {
+    OF.with(|[single, dual]| {
+        let layout = if text.contains(&dual.sha256()) { dual } else { single };
         let graph = match graph::read(&text, layout) {
             Ok(graph) => graph,
             Err(error) => return refused(&error),

@@ -4,8 +4,9 @@ use super::argument::Argument;
 use super::execute::{Registers, execute, registers};
 use super::instruction::Register;
 use super::program::Program;
+use super::recorded::{Sizes, impact_equations};
 use super::values::{Source, Value, Values};
-use crate::format::{Family, Function as GraphFunction, Graph};
+use crate::format::{Family, Function as GraphFunction, Graph, Operand};
 use std::cell::RefCell;
 use std::ops::Range;
 
@@ -123,14 +124,16 @@ impl Function {
         }
         values.extend(&family.configuration.statements)?;
         values.extend(&function.statements)?;
-        let mut wanted = Vec::new();
+        let roots = function.roots().iter().flat_map(|root| &root.elements);
+        let mut wanted = roots.map(|element| values.operand(element)).collect::<Result<Vec<_>, _>>()?;
+        if function.is_in_loops() {
+            wanted = in_loops(graph, function, &mut values, wanted)?;
+        }
         let mut ranges = Vec::with_capacity(function.outputs.len());
+        let mut end = 0;
         for output in &function.outputs {
-            let start = wanted.len();
-            for element in &output.elements {
-                wanted.push(values.operand(element)?);
-            }
-            ranges.push(start..wanted.len());
+            ranges.push(end..end + output.elements.len());
+            end += output.elements.len();
         }
         Ok(Self {
             index,
@@ -142,4 +145,24 @@ impl Function {
             outputs: function.outputs.iter().map(Argument::new).collect(),
         })
     }
+}
+
+/// The outputs of a function as rendered code computes them: in loops, from its matrices.
+fn in_loops(
+    graph: &Graph,
+    function: &GraphFunction,
+    values: &mut Values,
+    mut given: Vec<usize>,
+) -> Result<Vec<usize>, String> {
+    let of_call = function.inputs.iter().filter(|name| !["base_pose", "joint_angles"].contains(&name.as_str()));
+    for name in of_call {
+        let input = graph.inputs.iter().find(|input| input.name == *name);
+        let input = input.ok_or_else(|| format!("its input `{name}` is not declared"))?;
+        for element in 0..input.shape.iter().product() {
+            given.push(values.operand(&Operand::Name(input.element(element)))?);
+        }
+    }
+    let rows =
+        |index: usize| function.matrices.get(index).and_then(|matrix| matrix.shape.first()).copied().unwrap_or(0);
+    impact_equations(values, Sizes { arms: rows(1) / 3, joints: rows(0) }, &given)
 }

@@ -35,6 +35,7 @@ mod lanes;
 mod merge;
 mod model;
 mod program;
+mod recorded;
 mod schedule;
 mod targets;
 mod values;

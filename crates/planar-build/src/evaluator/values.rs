@@ -57,6 +57,12 @@ impl Values {
         }
     }
 
+    /// Adds the result of an operation that has no name.
+    pub fn result(&mut self, operation: Operation, a: usize, b: Option<usize>) -> usize {
+        self.all.push(Value::Result { operation, a, b });
+        self.all.len() - 1
+    }
+
     /// Adds the values of statements.
     ///
     /// # Errors

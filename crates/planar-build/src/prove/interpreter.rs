@@ -1,6 +1,7 @@
 //! Interprets a graph: computes what the rendered code will compute, without compiling it.
 
-use crate::format::{Function, FunctionResult, Given, Graph, Operand, Operation, Statement};
+use crate::format::{Function, FunctionResult, Given, Graph, Operand, Operation, Statement, Variable};
+use planar_dynamics::impact_equations::ImpactEquations;
 use planar_dynamics::scalar::Scalar;
 use std::collections::HashMap;
 
@@ -19,6 +20,44 @@ pub fn interpret(graph: &Graph, arguments: Arguments<'_>) -> Result<Vec<Function
     interpret_some(graph, arguments, &|_, _, value: f64| value, &|_| true)
 }
 
+/// The results of the functions that rendered code computes in loops, as it does: from their matrices.
+///
+/// # Errors
+/// As [`interpret`].
+pub fn interpret_loops(graph: &Graph, arguments: Arguments<'_>) -> Result<Vec<FunctionResult>, String> {
+    let scalar = |_: &str, _: usize, value: f64| value;
+    let matrices = results(graph, arguments, &scalar, &Function::is_in_loops, |function| &function.matrices)?;
+    let given = |name: &str| {
+        let mut inputs = arguments.inputs.iter();
+        inputs.find(|given| given.name == name).map_or(&[][..], |given| &given.values)
+    };
+    let joints = given("joint_rates").len();
+    let rows = |values: &[f64]| values.chunks_exact(joints.max(1)).map(<[f64]>::to_vec).collect::<Vec<_>>();
+    let functions = graph.functions().filter(|function| function.is_in_loops());
+    let mut found = Vec::new();
+    for (function, [inertia, jacobian]) in functions.zip(matrices.as_chunks().0) {
+        let equations = ImpactEquations {
+            generalized_jacobian: &rows(&jacobian.values),
+            joint_rates: given("joint_rates"),
+            target_masses: given("target_masses"),
+            target_inertias: given("target_inertias"),
+            contacts: given("contacts").as_chunks().0,
+            target_twists: given("target_twists").as_chunks().0,
+        };
+        let (mut matrix, mut factors) = (rows(&inertia.values), rows(&inertia.values));
+        let (mut momentum, mut after) = (vec![0.0; joints], vec![0.0; joints]);
+        let pivot = equations.solve::<false>(&mut matrix, &mut factors, &mut momentum, &mut after);
+        let values = [matrix.concat(), momentum, after, vec![pivot]];
+        found.extend(function.outputs.iter().zip(values).map(|(output, values)| FunctionResult {
+            function: function.name.clone(),
+            output: output.name.clone(),
+            values,
+            sizes: Vec::new(),
+        }));
+    }
+    Ok(found)
+}
+
 /// The parameters, as an input of [`interpret_some`].
 const PARAMETERS: &str = "parameters";
 
@@ -29,9 +68,20 @@ const PARAMETERS: &str = "parameters";
 /// As [`interpret`].
 pub fn interpret_some<T: Scalar>(
     graph: &Graph,
+    arguments: Arguments<'_>,
+    scalar: &dyn Fn(&str, usize, f64) -> T,
+    is_wanted: &dyn Fn(&Function) -> bool,
+) -> Result<Vec<FunctionResult<T>>, String> {
+    results(graph, arguments, scalar, is_wanted, |function| &function.outputs)
+}
+
+/// As [`interpret_some`], for the outputs of each function or its matrices.
+fn results<T: Scalar>(
+    graph: &Graph,
     Arguments { inputs, parameters: values }: Arguments<'_>,
     scalar: &dyn Fn(&str, usize, f64) -> T,
     is_wanted: &dyn Fn(&Function) -> bool,
+    of_function: fn(&Function) -> &[Variable],
 ) -> Result<Vec<FunctionResult<T>>, String> {
     let mut known = Known { before: None, own: HashMap::new() };
     for input in &graph.inputs {
@@ -51,7 +101,7 @@ pub fn interpret_some<T: Scalar>(
         for function in family.functions.iter().filter(|function| is_wanted(function)) {
             let mut call = configuration.next_stage();
             call.run(&function.statements)?;
-            for output in &function.outputs {
+            for output in of_function(function) {
                 let values = output.elements.iter().map(|element| call.get(element)).collect::<Result<_, _>>()?;
                 let (function, output) = (function.name.clone(), output.name.clone());
                 found.push(FunctionResult { function, output, values, sizes: Vec::new() });

@@ -40,7 +40,8 @@ use crate::graph::{self, Graph, GraphError};
 use crate::prove::sampling::{REGIMES, Regime};
 use derivatives::with_derivatives;
 use impact_results::EXACT;
-use interpreter::{Arguments, interpret};
+use interpreter::{Arguments, interpret, interpret_loops};
+use pivots::PIVOT;
 use planar_dynamics::error::Error;
 use planar_layout::layout::Layout;
 use planar_layout::structure::{Structure, parameters};
@@ -167,11 +168,13 @@ pub fn prove(layout: &Layout, graph: &Graph) -> Result<Proof, GenerateError> {
             let (state, parameters) = sample(layout, (graph, structure), regime, index)?;
             let arguments = Arguments { inputs: &state.inputs, parameters: &parameters };
             let mut found = interpret(graph, arguments).map_err(GraphError::Format)?;
-            found.retain(|found| found.output != "smallest_pivot");
+            found.retain(|found| found.output != PIVOT);
             if found.len() != state.expected.len() {
                 let problem = "it has other results than the generic implementation";
                 return Err(GraphError::Format(problem.to_owned()).into());
             }
+            let in_loops = interpret_loops(graph, arguments).map_err(GraphError::Format)?;
+            found.extend(in_loops.into_iter().filter(|found| found.output != PIVOT));
             for found in found {
                 let error = state.expected(&found).map_or(f64::INFINITY, |expected| expected.error(&found));
                 if error > 1.0 {

@@ -1,12 +1,13 @@
 //! The smallest pivots of a graph, which say that there is no result.
 
-use crate::format::{Function, Given, Graph};
+use crate::format::{Function, FunctionResult, Given, Graph};
 use crate::graph::GraphError;
-use crate::prove::interpreter::{Arguments, interpret_some};
+use crate::prove::interpreter::{Arguments, interpret_loops, interpret_some};
 use planar_dynamics::manifest::ParameterKind;
 use planar_layout::structure::Structure;
 
-const PIVOT: &str = "smallest_pivot";
+/// The output.
+pub const PIVOT: &str = "smallest_pivot";
 
 /// The function whose matrix has the size of the joints.
 const OF_JOINTS: &str = "reduced_impact";
@@ -80,6 +81,11 @@ fn wrong(function: &Function, what: &str) -> Result<(), GraphError> {
 fn pivots<'a>(graph: &'a Graph, arguments: Arguments<'_>) -> Result<Vec<(&'a Function, Vec<f64>)>, GraphError> {
     let has_pivot = |function: &Function| function.outputs.iter().any(|output| output.name == PIVOT);
     let found = interpret_some(graph, arguments, &|_, _, value: f64| value, &has_pivot).map_err(GraphError::Format)?;
-    let values = found.into_iter().filter(|found| found.output == PIVOT).map(|found| found.values);
-    Ok(graph.functions().filter(|function| has_pivot(function)).zip(values).collect())
+    let in_loops = interpret_loops(graph, arguments).map_err(GraphError::Format)?;
+    let pivots = found.into_iter().chain(in_loops).filter(|found| found.output == PIVOT);
+    let of_function = |found: FunctionResult| {
+        let function = graph.functions().find(|function| function.name == found.function);
+        function.map(|function| (function, found.values))
+    };
+    Ok(pivots.filter_map(of_function).collect())
 }

@@ -4,6 +4,7 @@ mod c;
 mod composites;
 mod doc_text;
 mod fused;
+mod loops;
 mod needed;
 mod pairs;
 mod statements;
@@ -13,10 +14,10 @@ mod wrap;
 
 pub use c::{CModule, CText, CoSimulation, CoSimulationVariable, Role};
 
-use crate::format::{Family, Function, Graph, Operand, Parameter, ReferenceState, Variable};
+use crate::format::{Family, Function, Graph, Parameter, ReferenceState, Variable};
 use composites::{merged_links, steps};
 use pairs::{Names, paired};
-use planar_dynamics::standalone::PARTS;
+use planar_dynamics::standalone::{IMPACT_EQUATIONS, PARTS};
 use planar_layout::diagnostic::printable;
 use planar_layout::layout::sha256;
 use serde_json::{Value, json};
@@ -77,7 +78,9 @@ impl Module<'_> {
         let mut context = Context::from_serialize(&context(graph, self)).map_err(|e| e.to_string())?;
         let mut body = wrap::wrap(&tera.render("module.rs", &context).map_err(|e| format!("{e:?}"))?, Syntax::Rust);
         if self.standalone {
-            body.extend(PARTS.map(|(name, text)| format!("\nmod {name} {{\n{}}}\n", indented(&alone(text), 4))));
+            let of_loops = graph.functions().any(Function::is_in_loops).then_some(IMPACT_EQUATIONS);
+            let parts = PARTS.into_iter().chain(of_loops);
+            body.extend(parts.map(|(name, text)| format!("\nmod {name} {{\n{}}}\n", indented(&alone(text), 4))));
         }
         if self.item {
             body = format!("pub mod {} {{\n{}}}\n", graph.layout.name, indented(&body, 4));
@@ -170,6 +173,7 @@ fn context(graph: &Graph, module: &Module<'_>) -> Value {
         "constants": {"statements": body(&set_up), "values": order.iter().filter_map(constant).collect::<Vec<_>>(), "names": order},
         "steps": steps(),
         "merged": merged_links(graph),
+        "in_loops": graph.functions().any(Function::is_in_loops),
         "has_pairs": families.iter().any(|family| family["has_pairs"] == true),
         "families": families,
     })
@@ -222,19 +226,23 @@ fn render_function(
     is_fused: bool,
     symmetry: &Symmetry,
 ) -> Value {
-    let Function { name, outputs, sections, statements, .. } = function;
-    let pairs: Vec<_> = outputs.iter().flat_map(|output| counterparts(symmetry, output)).collect();
-    let stage = paired(&mut symmetry.clone(), sections, statements, &pairs, names);
+    let Function { name, outputs, .. } = function;
+    let (sections, statements) = loops::without_loops(function);
+    let (roots, in_loops) = (function.roots(), function.is_in_loops());
+    let pairs: Vec<_> = roots.iter().flat_map(|root| counterparts(symmetry, root)).collect();
+    let stage = paired(&mut symmetry.clone(), &sections, &statements, &pairs, names);
     let scope = Scope::call(graph, fields, is_fused).with_pairs(&stage.names);
-    let results: Vec<&str> = outputs.iter().flat_map(|output| &output.elements).filter_map(Operand::name).collect();
-    let mut lines = scope.lines(&stage.sections, &stage.statements, &results);
-    let arrays = outputs.iter().map(|output| (output, scope.array(output)));
+    let mut lines = scope.lines(&stage.sections, &stage.statements, &loops::names(roots));
+    if in_loops {
+        lines.extend(loops::in_rust(function, &scope, is_fused));
+    }
+    let arrays = outputs.iter().map(|output| if in_loops { output.name.clone() } else { scope.array(output) });
     let single = outputs.len() == 1;
     if single {
-        lines.extend(arrays.map(|(_, array)| array));
+        lines.extend(arrays);
     } else {
         lines.push(format!("{} {{", camel_case(name)));
-        lines.extend(arrays.map(|(output, array)| format!("    {}: {array},", output.name)));
+        lines.extend(outputs.iter().zip(arrays).map(|(output, array)| format!("    {}: {array},", output.name)));
         lines.push("}".to_owned());
     }
     let bindings = bindings(&lines, "self.model", Syntax::Rust);

@@ -2,6 +2,7 @@
 //! shapes fit elements, and every value is assigned once, before it is used.
 
 mod assignments;
+mod loops;
 mod text;
 
 use crate::format::{Derivative, Family, Function, Graph, Operations, Variable};
@@ -137,7 +138,7 @@ fn check_function<'a>(
         }
         output.elements.iter().try_for_each(|element| known.operand(element))?;
     }
-    Ok(())
+    loops::check(declared, function, &known)
 }
 
 /// The reference vectors: of inputs and results that there are.

@@ -8,6 +8,7 @@ mod sine;
 pub use co_simulation::{CoSimulation, CoSimulationVariable, Role};
 
 use super::composites::{merged_links, steps};
+use super::loops;
 use super::needed::needed;
 use super::statements::{Scope, bindings};
 use super::syntax::Syntax;
@@ -87,6 +88,7 @@ fn context(graph: &Graph, module: &CModule<'_>) -> Result<Value, String> {
     let functions: Vec<Value> = families().map(|(family, f)| function(graph, family, f)).collect();
     let mut texts = functions.iter().filter_map(|function| function["statements"].as_str()).collect::<Vec<_>>();
     texts.extend(set_up.iter().map(String::as_str));
+    let in_loops = graph.functions().any(Function::is_in_loops);
     let uses = |call: &str| texts.iter().any(|text| text.contains(call));
     let name = &graph.layout.name;
     Ok(json!({
@@ -124,7 +126,8 @@ fn context(graph: &Graph, module: &CModule<'_>) -> Result<Value, String> {
         },
         "has_square_root": uses("square_root("),
         "has_arctangent": uses("arctangent("),
-        "has_minimum": uses("minimum("),
+        "has_minimum": uses("minimum(") || in_loops,
+        "in_loops": in_loops,
         "functions": functions,
         "steps": steps(),
         "merged": merged,
@@ -164,26 +167,33 @@ fn sum_of_zeros(name: &str, values: &[String]) -> String {
 fn function(graph: &Graph, family: &Family, function: &Function) -> Value {
     let Function { name, outputs, sections, statements, .. } = function;
     let scope = Scope::constants(graph, Syntax::C, false);
-    let results: Vec<&str> = outputs.iter().flat_map(|output| &output.elements).filter_map(Operand::name).collect();
+    let results = loops::names(function.roots());
     let configuration = &family.configuration;
     let stages = [(&configuration.sections[..], &configuration.statements[..]), (sections, statements)];
     let (sections, statements) = needed(&stages, &results);
     let mut lines = scope.lines(&sections, &statements, &results);
     let is_pivot = |output: &&Variable| output.name == "smallest_pivot";
     let stored: Vec<&Variable> = outputs.iter().filter(|output| !is_pivot(output)).collect();
-    let mut checked: Vec<String> = Vec::new();
-    for output in &stored {
-        for (index, element) in output.elements.iter().enumerate() {
-            let value = scope.operand(element);
-            if element.name().is_some() && !checked.contains(&value) {
-                checked.push(value.clone());
+    let (pivot, check) = if function.is_in_loops() {
+        let (in_loops, pivot) = loops::in_c(function, &scope);
+        lines.extend(in_loops);
+        let finite = stored.iter().map(|output| format!("is_finite({}, {}U)", output.name, output.elements.len()));
+        let finite = finite.collect::<Vec<_>>().join(" && ");
+        (Some(pivot), format!("    const real check = ({finite}) ? zero : (real)-1.0;"))
+    } else {
+        let mut checked: Vec<String> = Vec::new();
+        for output in &stored {
+            for (index, element) in output.elements.iter().enumerate() {
+                let value = scope.operand(element);
+                if element.name().is_some() && !checked.contains(&value) {
+                    checked.push(value.clone());
+                }
+                lines.push(format!("{}[{index}] = {value};", output.name));
             }
-            lines.push(format!("{}[{index}] = {value};", output.name));
         }
-    }
-    let pivot = outputs.iter().find(is_pivot).and_then(|output| output.elements.first());
-    let pivot = pivot.map(|element| scope.operand(element));
-    let check = sum_of_zeros("check", &checked);
+        let pivot = outputs.iter().find(is_pivot).and_then(|output| output.elements.first());
+        (pivot.map(|element| scope.operand(element)), sum_of_zeros("check", &checked))
+    };
     let text = format!("{}\n{check}\n{}", lines.join("\n"), pivot.as_deref().unwrap_or_default());
     let inputs: Vec<&Variable> = function.inputs.iter().map(|name| input(graph, name)).collect();
     let is_unused = |name: &&str| pivot.is_none() && !text.contains(&format!("{name}["));

@@ -1,0 +1,142 @@
+//! Numbers that record what is computed from them: the loops of the core as the operations of a program, which then has
+//! their bits.
+
+use super::values::Values;
+use crate::format::{Operand, Operation};
+use planar_dynamics::impact_equations::ImpactEquations;
+use planar_dynamics::scalar::Scalar;
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A number of the recorded operations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Recorded {
+    Number(f64),
+    /// One of those that were given, by its index.
+    Given(usize),
+    /// The result of an operation, by its index.
+    Result(usize),
+}
+
+/// An operation that was recorded; the second operand of one with one operand is the first.
+type Step = (Operation, [Recorded; 2]);
+
+thread_local! {
+    static STEPS: RefCell<Vec<Step>> = const { RefCell::new(Vec::new()) };
+}
+
+/// The sizes of the paper's impact.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sizes {
+    pub arms: usize,
+    pub joints: usize,
+}
+
+/// Adds the results of the impact equations to the values of a program, from `given` ones, one after the other:
+/// generalized inertia and Jacobian, joint rates, masses and inertias of targets, contacts and twists. Returns G, H, the
+/// joint rates after the impact, and the smallest pivot.
+///
+/// # Errors
+/// None: that of a name without a value.
+pub(super) fn impact_equations(values: &mut Values, sizes: Sizes, given: &[usize]) -> Result<Vec<usize>, String> {
+    let (steps, outputs) = steps(sizes);
+    let (mut numbers, mut results) = (HashMap::new(), Vec::with_capacity(steps.len()));
+    let mut value = |values: &mut Values, results: &[usize], recorded: Recorded| match recorded {
+        Recorded::Given(index) => Ok(given[index]),
+        Recorded::Result(index) => Ok(results[index]),
+        Recorded::Number(number) => match numbers.get(&number.to_bits()) {
+            Some(known) => Ok(*known),
+            None => {
+                let new = values.operand(&Operand::Number(number))?;
+                numbers.insert(number.to_bits(), new);
+                Ok::<usize, String>(new)
+            }
+        },
+    };
+    for (operation, [a, b]) in steps {
+        let a = value(values, &results, a)?;
+        let b = if operation.is_unary() { None } else { Some(value(values, &results, b)?) };
+        results.push(values.result(operation, a, b));
+    }
+    outputs.into_iter().map(|output| value(values, &results, output)).collect()
+}
+
+/// The operations, and what the results are.
+fn steps(Sizes { arms, joints }: Sizes) -> (Vec<Step>, Vec<Recorded>) {
+    let mut next = 0;
+    let mut given = |count: usize| -> Vec<Recorded> {
+        next += count;
+        (next - count..next).map(Recorded::Given).collect()
+    };
+    let rows = |entries: Vec<Recorded>| -> Vec<Vec<Recorded>> {
+        entries.chunks_exact(joints.max(1)).map(<[Recorded]>::to_vec).collect()
+    };
+    let (mut matrix, generalized_jacobian) = (rows(given(joints * joints)), rows(given(3 * arms * joints)));
+    let mut factors = matrix.clone();
+    let [joint_rates, target_masses, target_inertias] = [joints, arms, arms].map(&mut given);
+    let (contacts, target_twists) = (given(2 * arms), given(3 * arms));
+    let equations = ImpactEquations {
+        generalized_jacobian: &generalized_jacobian,
+        joint_rates: &joint_rates,
+        target_masses: &target_masses,
+        target_inertias: &target_inertias,
+        contacts: contacts.as_chunks().0,
+        target_twists: target_twists.as_chunks().0,
+    };
+    let [mut momentum, mut after] = [(); 2].map(|()| vec![Recorded::ZERO; joints]);
+    let pivot = equations.solve::<false>(&mut matrix, &mut factors, &mut momentum, &mut after);
+    (STEPS.take(), [matrix.concat(), momentum, after, vec![pivot]].concat())
+}
+
+fn record(operation: Operation, a: Recorded, b: Recorded) -> Recorded {
+    STEPS.with_borrow_mut(|steps| {
+        steps.push((operation, [a, b]));
+        Recorded::Result(steps.len() - 1)
+    })
+}
+
+macro_rules! operators {
+    ($($trait:ident $method:ident),*) => {
+        $(impl $trait for Recorded {
+            type Output = Self;
+            fn $method(self, other: Self) -> Self {
+                record(Operation::$trait, self, other)
+            }
+        })*
+    };
+}
+
+operators!(Add add, Sub sub, Mul mul, Div div);
+
+impl Neg for Recorded {
+    type Output = Self;
+    fn neg(self) -> Self {
+        record(Operation::Neg, self, self)
+    }
+}
+
+impl Scalar for Recorded {
+    const ZERO: Self = Self::Number(0.0);
+    const ONE: Self = Self::Number(1.0);
+
+    fn constant(value: f64) -> Self {
+        Self::Number(value)
+    }
+
+    fn sin_cos(self) -> (Self, Self) {
+        unreachable!("loops have matrices, not angles")
+    }
+
+    fn sqrt(self) -> Self {
+        record(Operation::Sqrt, self, self)
+    }
+
+    fn atan2(self, x: Self) -> Self {
+        record(Operation::Atan2, self, x)
+    }
+
+    fn minimum(self, other: Self) -> Self {
+        record(Operation::Min, self, other)
+    }
+}
