@@ -1,11 +1,12 @@
-//! Time per call of forward dynamics, generated and generic, by the same trait at the same states in the same runs.
+//! Time per call of forward dynamics and of the paper's impact, generated and generic, by the same traits at the same
+//! states in the same runs.
 //!
 //! `cargo run --release` in this folder derives the robots and runs this benchmark, which alone has no robots.
 
 use criterion::Criterion;
-use planar_capture::dynamics::ForwardDynamics;
 use planar_capture::generic::Generic;
 use planar_capture::layout::Layout;
+use planar_capture::owned::CloneModel;
 use planar_capture::sampling::Regime;
 use planar_capture::state::Forces;
 use std::error::Error;
@@ -21,7 +22,7 @@ struct Robot {
     name: &'static str,
     /// TOML.
     layout: &'static str,
-    model: fn() -> Box<dyn ForwardDynamics<f64>>,
+    model: fn() -> Box<dyn CloneModel>,
 }
 
 /// Number of states, evaluated in turn.
@@ -47,24 +48,37 @@ fn measure(
     criterion: &mut Criterion,
     robot: &str,
     implementation: &str,
-    model: &dyn ForwardDynamics<f64>,
+    model: &dyn CloneModel,
     layout: &Layout,
 ) -> Result<(), Box<dyn Error>> {
     let states: Vec<_> = (0..STATES).map(|index| Regime::Moving.sample(layout, 1, index).instant).collect();
-    let mut accelerations = vec![0.0; layout.joints()];
+    let joints = layout.joints();
+    let (mut accelerations, mut after) = (vec![0.0; joints], vec![0.0; joints]);
+    let (mut matrix, mut momentum) = (vec![0.0; joints * joints], vec![0.0; joints]);
     for instant in &states {
         // errors would be fast and must not be timed
-        let forces = Forces::torques(&instant.joint_torques);
-        model.forward_dynamics(&instant.state.view(), &forces, &mut accelerations)?;
+        let (state, forces) = (instant.state.view(), Forces::torques(&instant.joint_torques));
+        model.forward_dynamics(&state, &forces, &mut accelerations)?;
+        model.reduced_impact(&state, &instant.targets, &mut matrix, &mut momentum, &mut after)?;
     }
     let mut states = states.iter().cycle();
-    criterion.benchmark_group(robot).bench_function(implementation, |bencher| {
+    let mut group = criterion.benchmark_group(robot);
+    group.bench_function(implementation, |bencher| {
         bencher.iter(|| {
             let instant = states.next()?;
             let forces = Forces::torques(&instant.joint_torques);
             let base = model.forward_dynamics(&black_box(instant.state.view()), &forces, &mut accelerations);
             black_box(&accelerations);
             base.ok()
+        });
+    });
+    group.bench_function(format!("{implementation} impact"), |bencher| {
+        bencher.iter(|| {
+            let instant = states.next()?;
+            let (state, targets) = (black_box(instant.state.view()), &instant.targets);
+            let done = model.reduced_impact(&state, targets, &mut matrix, &mut momentum, &mut after);
+            black_box((&matrix, &momentum, &after));
+            done.ok()
         });
     });
     Ok(())

@@ -36,7 +36,11 @@ impl Derivation {
             let module = Module {
                 standalone,
                 item: !standalone,
-                arithmetic: Arithmetic::default(),
+                // as build scripts render for this processor
+                arithmetic: Arithmetic {
+                    is_fused: false,
+                    is_paired: cfg!(any(target_arch = "x86_64", target_arch = "aarch64")),
+                },
                 source: "the scaling benchmark",
                 command: "cargo run",
             };

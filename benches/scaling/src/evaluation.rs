@@ -8,13 +8,15 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-/// Median times of one call of forward dynamics, ns; those of the fastest of several runs.
+/// Median times of one call, ns; those of the fastest of several runs.
 #[derive(Clone, Copy, Debug)]
 pub struct Evaluation {
-    /// Of the generated code.
+    /// Of forward dynamics by the generated code.
     pub generated: f64,
-    /// Of the generic implementation.
+    /// By the generic implementation.
     pub generic: f64,
+    /// Of the paper's impact, by both.
+    pub impacts: [f64; 2],
 }
 
 impl Evaluation {
@@ -48,7 +50,8 @@ pub fn evaluate(robots: &[(Shape, Derivation)], work: &Path) -> Result<Vec<Evalu
         let estimates: Value = serde_json::from_str(&fs::read_to_string(&file)?)?;
         estimates["median"]["point_estimate"].as_f64().ok_or_else(|| format!("{}: no median", file.display()).into())
     };
-    let mut fastest = vec![Evaluation { generated: f64::INFINITY, generic: f64::INFINITY }; robots.len()];
+    let never = Evaluation { generated: f64::INFINITY, generic: f64::INFINITY, impacts: [f64::INFINITY; 2] };
+    let mut fastest = vec![never; robots.len()];
     for _ in 0..REPEATS {
         let mut command = cargo();
         command.args(["bench", "--bench", "evaluation", "--no-default-features"]);
@@ -56,10 +59,17 @@ pub fn evaluate(robots: &[(Shape, Derivation)], work: &Path) -> Result<Vec<Evalu
         if !command.status()?.success() {
             return Err("cargo bench failed".into());
         }
-        for ((shape, _), Evaluation { generated, generic }) in robots.iter().zip(&mut fastest) {
+        for ((shape, _), Evaluation { generated, generic, impacts: [impact, dense] }) in robots.iter().zip(&mut fastest)
+        {
             let name = shape.name();
-            *generated = generated.min(median(&name, "generated")?);
-            *generic = generic.min(median(&name, "generic")?);
+            for (place, measured) in [
+                (generated, "generated"),
+                (generic, "generic"),
+                (impact, "generated impact"),
+                (dense, "generic impact"),
+            ] {
+                *place = place.min(median(&name, measured)?);
+            }
         }
     }
     Ok(fastest)

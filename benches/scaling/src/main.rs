@@ -1,5 +1,5 @@
 //! Cost over the number of arms and links: derives, compiles and evaluates robots from one arm of two links to four arms of
-//! seven, and writes `docs/scaling.md` and `docs/scaling.svg`.
+//! ten, and writes `docs/scaling.md` and `docs/scaling.svg`.
 
 #![allow(clippy::disallowed_methods, reason = "what is measured does not depend on the last bit")]
 

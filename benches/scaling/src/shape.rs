@@ -1,4 +1,4 @@
-//! The measured robots: equal arms and links, from one arm of two links to four of seven.
+//! The measured robots: equal arms and links, from one arm of two links to four of seven; one long arm, and four of ten links.
 
 use planar_capture::layout::{Arm, Base, Layout, Link};
 use std::f64::consts::TAU;
@@ -15,7 +15,10 @@ pub struct Shape {
 impl Shape {
     /// All measured robots, by arms, then links.
     pub fn all() -> impl Iterator<Item = Self> {
-        [1, 2, 3, 4].into_iter().flat_map(|arms| [2, 3, 5, 7].into_iter().map(move |links| Self { arms, links }))
+        let regular =
+            [1, 2, 3, 4].into_iter().flat_map(|arms| [2, 3, 5, 7].into_iter().map(move |links| (arms, links)));
+        let large = [(1, 30), (4, 10)];
+        regular.chain(large).map(|(arms, links)| Self { arms, links })
     }
 
     /// Links of all arms together.

@@ -147,3 +147,23 @@ impl<'a, T: Real> GaussLegendre<'a, T> {
 fn largest_magnitude<T: Real>(values: impl Iterator<Item = T>) -> T {
     values.fold(T::ZERO, |largest, value| largest.maximum(value.abs()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Tableau;
+
+    /// The conditions of the method, which determine all its numbers: with the exponents q below the number of stages,
+    /// Σ aᵢⱼ cⱼ^q = cᵢ^(q+1) / (q + 1), and below twice as many Σ bⱼ cⱼ^q = 1 / (q + 1).
+    #[test]
+    fn the_tableau_has_the_order_of_collocation() {
+        let Tableau { nodes, matrix, weights } = Tableau::<f64>::new();
+        let integral = |row: [f64; 3], q: i32| row.iter().zip(nodes).map(|(a, c)| a * c.powi(q)).sum::<f64>();
+        for q in 0..6 {
+            let exact = 1.0 / f64::from(q + 1);
+            assert!((integral(weights, q) - exact).abs() < 1e-15, "weights, {q}");
+            for (row, node) in matrix.into_iter().zip(nodes).filter(|_| q < 3) {
+                assert!((integral(row, q) - node.powi(q + 1) * exact).abs() < 1e-15, "{row:?}, {q}");
+            }
+        }
+    }
+}
