@@ -21,6 +21,9 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+/// Bytes that are written at once: time series have megabytes.
+const BUFFER: usize = 1 << 16;
+
 /// Creates a folder for results and its parents; removes what a killed process left in it.
 ///
 /// # Errors
@@ -91,7 +94,7 @@ impl StagedFile {
 
 /// Writes a file's content to the disk.
 pub(super) fn write_whole(file: &File, write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> io::Result<()> {
-    let mut writer = BufWriter::new(file);
+    let mut writer = BufWriter::with_capacity(BUFFER, file);
     write(&mut writer)?;
     writer.flush()?;
     drop(writer);

@@ -106,6 +106,24 @@ fn light_links_between_heavy_bodies_are_refused() {
     }
 }
 
+/// A base on which arms fold has next to no inertia of its own beside theirs.
+#[test]
+fn a_base_that_is_too_light_for_its_arm_is_refused() {
+    let with_base = |base: f64| {
+        let link = "[[arm.link]]\nlength = 1.0\nmass = 1e4\ninertia = 1e3\n".repeat(3);
+        let text = format!(
+            "name = \"one\"\n[base]\nmass = {base:?}\ninertia = {base:?}\n[[arm]]\nname = \"left\"\nmount = [0.5, 0.0]\n{link}"
+        );
+        Layout::parse(&text, "one.toml")
+    };
+    let refused = with_base(1e-3).expect_err("accepted").to_string();
+    for wanted in ["one.toml:3:", "`base.mass` is 0.001", "how the base moves with all joints free", "1.7e-7"] {
+        assert!(refused.contains(wanted), "no {wanted} in {refused}");
+    }
+    let found = with_base(1.0);
+    assert!(found.is_ok(), "{}", found.expect_err("refused"));
+}
+
 fn scenario(text: &str) -> Result<Scenario, Report> {
     Scenario::parse(text, "demo.toml", Path::new(""), &shipped())
 }

@@ -174,6 +174,9 @@ fn a_graph_is_sound_or_refused() {
         ("/families/0/functions/0/inputs/0", json!("nothing"), "no input `base_pose`"),
         ("/families/0/functions/0/outputs", json!([]), "no output"),
         ("/families/0/functions/0/outputs/0/elements/0", json!("joint_angles[99]"), "`joint_angles[99]`"),
+        ("/families/0/functions/0/outputs/0/elements/0", json!("joint_torques[6]"), "`joint_torques[6]`"),
+        ("/families/6/functions/0/outputs/1/elements/0", json!("contacts[1][2]"), "`contacts[1][2]`"),
+        ("/families/6/functions/0/outputs/1/elements/0", json!("contacts[2][1]"), "`contacts[2][1]`"),
         ("/families/0/functions/0/outputs/0/elements/0", json!("joint_angles[+0]"), "`joint_angles[+0]`"),
         ("/families/0/functions/0/outputs/0/elements", json!([]), "has 0 elements"),
         ("/families/0/functions/0/outputs/0/shape", json!([1, 1, 3]), "shape"),
@@ -190,6 +193,13 @@ fn a_graph_is_sound_or_refused() {
     ] {
         let problem = changed(pointer, &value).expect_err(pointer);
         assert!(problem.contains(hint), "{pointer} = {value}: no `{hint}` in {problem}");
+    }
+    // the last elements are there
+    for (pointer, last) in [
+        ("/families/0/functions/0/outputs/0", "joint_torques[5]"),
+        ("/families/6/functions/0/outputs/1", "contacts[1][1]"),
+    ] {
+        assert!(changed(&format!("{pointer}/elements/0"), &json!(last)).is_ok(), "{last}");
     }
     let mut fewer = json("codegen/graphs/dual_arm_3r.json");
     fewer["parameters"].as_array_mut().expect("parameters").remove(0);

@@ -246,6 +246,26 @@ fn a_file_that_is_longer_than_allowed_is_an_error() {
     assert_eq!(names(folder.path()), ["one.toml"]);
 }
 
+/// The same for a file that is shorter than what is written at once; an older one stays as it is.
+#[cfg(unix)]
+#[test]
+fn the_last_bytes_of_a_file_are_not_lost() {
+    let folder = TempDir::new().expect("a folder");
+    let path = folder.path().join("l.toml");
+    for content in [None, Some("older")] {
+        content.into_iter().for_each(|text| fs::write(&path, text).expect("written"));
+        let mut limited = Command::new("sh");
+        limited
+            .args(["-c", "ulimit -f 1; exec \"$0\" template layout --out l.toml --force"])
+            .arg(command().get_program());
+        let (code, _, err) = planar_proof::said(limited.current_dir(folder.path()).output().expect("a shell"));
+        assert_eq!(code, 2, "{err}");
+        assert!(err.contains("cannot write") && err.contains("too large"), "{err}");
+        assert_eq!(fs::read_to_string(&path).ok().as_deref(), content);
+        assert_eq!(names(folder.path()).len(), usize::from(content.is_some()));
+    }
+}
+
 /// Nobody writes into this pipe: whoever opens it waits for good.
 #[cfg(unix)]
 #[test]

@@ -391,6 +391,7 @@ mod mcap_files {
         let mut drawn: Vec<_> = scene.entities.iter().map(|entity| entity.frame_id.clone()).collect();
         drawn.sort();
         assert_eq!(drawn, frames);
+        let mut discs = 0;
         for entity in &scene.entities {
             let shapes = [entity.cubes.len(), entity.cylinders.len(), entity.triangles.len()];
             assert_eq!(shapes.iter().sum::<usize>(), 1, "{}", entity.id);
@@ -407,10 +408,17 @@ mod mcap_files {
             // the circle about the frame's origin through the farthest corner, or within the sum of the sides
             let corners = entity.triangles.iter().flat_map(|prism| &prism.points).map(|p| p.x.hypot(p.y));
             let farthest = corners.fold(0.0, f64::max);
-            let sizes = entity.cubes.iter().map(|cube| cube.size).chain(entity.cylinders.iter().map(|c| c.size));
-            let [low, high] = match sizes.flatten().next() {
-                Some(size) => [size.x / 2.0, size.x + size.y],
-                None => [0.9 * farthest, 1.001 * farthest],
+            let [cube, cylinder] =
+                [entity.cubes.first().and_then(|cube| cube.size), entity.cylinders.first().and_then(|c| c.size)];
+            let [low, high] = match (cube, cylinder) {
+                (Some(size), _) => [size.x / 2.0, size.x + size.y],
+                (_, Some(size)) => {
+                    // diameters
+                    assert!(size.x > 0.0 && size.x.to_bits() == size.y.to_bits(), "{}", entity.id);
+                    discs += 1;
+                    [0.999 * size.x / 2.0, 1.001 * size.x / 2.0]
+                }
+                _ => [0.9 * farthest, 1.001 * farthest],
             };
             assert!((low..high).contains(&f64::from(reach)), "{}: {reach}", entity.id);
             assert!(points.iter().all(|[_, _, z]| *z == 0.0));
@@ -426,6 +434,7 @@ mod mcap_files {
                 }
             }
         }
+        assert!(discs >= 2, "both targets are discs");
         let impulses = SceneUpdate::decode(&file.messages["/impulses"][0].1[..]).expect("a scene");
         assert_eq!(impulses.entities.len(), 2);
         // as long as the impulses are large, the longest a quarter of the longest arm

@@ -159,6 +159,9 @@ fn the_reports_openings_have_rotations() {
         columns.into_iter().fold(0.0, f64::max)
     };
     assert!(open(&before) < 1e-9, "{}", open(&before));
+    // closed from the first sample after the impact on
+    let holds = before["cases"][0]["post_impact"]["holds"].as_array().expect("a list");
+    assert!(!holds.is_empty() && holds.iter().all(|hold| hold["open"][0] == 0.0), "{:?}", holds[0]["open"][0]);
     assert_close("the turn", &[open(&after)], &[1e-3], 1e-5);
 }
 

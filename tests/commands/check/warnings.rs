@@ -421,6 +421,42 @@ fn targets_that_are_never_met_are_named() {
     assert!(!shown("[3.0, 0.1]", "[0.0, 0.1, 0.0]").contains("can meet"));
 }
 
+/// Of two targets the second may be met after the impact of the first, in the time that is left then.
+#[test]
+fn a_second_target_may_be_met_after_the_first() {
+    let text = shipped("elastic_rebound");
+    let (text, _) = text.split_once("[[case]]\nname = \"too_late\"").expect("its cases");
+    let coming = |twist: &str, duration: f64| {
+        let text = text.replace("[-4.2, -0.1]", "[-24.0, -0.1]").replace("[-0.05, 0.1, 0.0]", twist);
+        said_of(&format!("{text}[post_impact]\nduration = {duration:?}\n")).contains("can meet `box`")
+    };
+    assert!(!coming("[0.0, 0.45, 0.0]", 30.0) && coming("[0.0, 0.45, 0.0]", 0.1));
+}
+
+/// What goes beyond a limit in the same way in every case is said once.
+#[test]
+fn a_limit_of_all_cases_is_said_once() {
+    let text = shipped("elastic_rebound");
+    let (text, _) = text.split_once("[[case]]").expect("its cases");
+    let case = |name: &str, twist: &str| {
+        format!(
+            "[[case]]\nname = \"{name}\"\ntarget_twists = {{ box = {twist} }}\nrestitutions = {{ ball = 1.0, box = 1.0 }}\n"
+        )
+    };
+    let cases = case("a", "[-0.05, -0.2, 0.0]") + &case("b", "[-0.05, -0.3, 0.0]");
+    let said = said_of(&format!("{text}[limits]\njoint_rates = 0.05\n{cases}[post_impact]\nduration = 30.0\n"));
+    let beyond: Vec<&str> = said.lines().filter(|line| line.contains("along the planned path joint")).collect();
+    let mut distinct = beyond.clone();
+    distinct.sort_unstable();
+    distinct.dedup();
+    assert!(!beyond.is_empty() && distinct.len() == beyond.len(), "{said}");
+}
+
+/// The text of a shipped scenario.
+fn shipped(name: &str) -> String {
+    fs::read_to_string(file(&format!("scenarios/{name}.toml"))).expect("a scenario")
+}
+
 /// An arm that extends to the right while a ball drifts by, and another ball that the other arm is to meet.
 fn passing([x, y]: [f64; 2], velocity: [f64; 2], more: &str) -> String {
     format!(

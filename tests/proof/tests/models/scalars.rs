@@ -77,6 +77,22 @@ fn dual_numbers_give_the_power_balance() {
     }
 }
 
+/// No shipped graph has a square root or an angle of a vector; a robot's constants may.
+#[test]
+fn dual_numbers_have_the_derivatives_of_roots_angles_and_minima() {
+    for (x, y, rate) in [(0.7, -1.3, 0.4), (2.5e-3, 0.9, -3.0), (41.0, 7.5, 1.0)] {
+        let (a, b) = (Dual(x, rate), Dual(y, 2.0 * rate));
+        let root = x.sqrt();
+        assert_close("root", &[a.sqrt().0, a.sqrt().1], &[root, rate / (2.0 * root)], 1e-15 * (1.0 + 1.0 / root));
+        let (angle, square) = (b.atan2(a), x * x + y * y);
+        let expected = [y.atan2(x), (x * 2.0 * rate - y * rate) / square];
+        assert_close("angle", &[angle.0, angle.1], &expected, 1e-14 * (1.0 + 1.0 / x));
+        let smaller = if x < y { a } else { b };
+        assert_eq!((Scalar::minimum(a, b), Scalar::minimum(b, a)), (smaller, smaller));
+    }
+    assert_eq!(Dual(0.0, 0.0).sqrt(), Dual(0.0, 0.0));
+}
+
 fn state<'a>(angles: &'a [f64], rates: &'a [f64]) -> State<'a, f64> {
     State { base_pose: POSE, joint_angles: angles, base_twist: TWIST, joint_rates: rates }
 }
