@@ -131,10 +131,13 @@ mod tests {
     #[test]
     fn keys_are_found_by_their_whole_names() {
         let shown =
-            |text: &str| report_error(text, "it.toml", ("approach.step", "0.25 s"), "too long", None).to_string();
-        let both = shown("[approach]\nstep_size = 2.0\nsteps = 3\nstep = 0.5\n");
-        assert!(both.starts_with("error: `approach.step` is 0.5: too long") && both.contains("it.toml:4:"), "{both}");
-        let other = shown("[approach]\nstep_size = 2.0\n[approaches]\nstep = 0.5\n");
+            |text: &str| report_error(text, "it.toml", ("approach.step_size", "0.25 s"), "too long", None).to_string();
+        let both = shown("[approach]\nstep = 0.5\nsteps = 3\nstep_size = 2.0\n");
+        assert!(
+            both.starts_with("error: `approach.step_size` is 2.0: too long") && both.contains("it.toml:4:"),
+            "{both}"
+        );
+        let other = shown("[approach]\nstep = 0.5\n[approaches]\nstep_size = 2.0\n");
         assert!(other.contains("is left at its default, 0.25 s") && other.contains("it.toml:1:"), "{other}");
     }
 }
