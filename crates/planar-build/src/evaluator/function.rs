@@ -164,5 +164,5 @@ fn in_loops(
     }
     let rows =
         |index: usize| function.matrices.get(index).and_then(|matrix| matrix.shape.first()).copied().unwrap_or(0);
-    impact_equations(values, Sizes { arms: rows(1) / 3, joints: rows(0) }, &given)
+    Ok(impact_equations(values, Sizes { arms: rows(1) / 3, joints: rows(0) }, &given))
 }

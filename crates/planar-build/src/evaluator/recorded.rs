@@ -2,7 +2,7 @@
 //! their bits.
 
 use super::values::Values;
-use crate::format::{Operand, Operation};
+use crate::format::Operation;
 use planar_dynamics::impact_equations::ImpactEquations;
 use planar_dynamics::scalar::Scalar;
 use std::cell::RefCell;
@@ -36,27 +36,18 @@ pub(super) struct Sizes {
 /// Adds the results of the impact equations to the values of a program, from `given` ones, one after the other:
 /// generalized inertia and Jacobian, joint rates, masses and inertias of targets, contacts and twists. Returns G, H, the
 /// joint rates after the impact, and the smallest pivot.
-///
-/// # Errors
-/// None: that of a name without a value.
-pub(super) fn impact_equations(values: &mut Values, sizes: Sizes, given: &[usize]) -> Result<Vec<usize>, String> {
+pub(super) fn impact_equations(values: &mut Values, sizes: Sizes, given: &[usize]) -> Vec<usize> {
     let (steps, outputs) = steps(sizes);
     let (mut numbers, mut results) = (HashMap::new(), Vec::with_capacity(steps.len()));
     let mut value = |values: &mut Values, results: &[usize], recorded: Recorded| match recorded {
-        Recorded::Given(index) => Ok(given[index]),
-        Recorded::Result(index) => Ok(results[index]),
-        Recorded::Number(number) => match numbers.get(&number.to_bits()) {
-            Some(known) => Ok(*known),
-            None => {
-                let new = values.operand(&Operand::Number(number))?;
-                numbers.insert(number.to_bits(), new);
-                Ok::<usize, String>(new)
-            }
-        },
+        Recorded::Given(index) => given[index],
+        Recorded::Result(index) => results[index],
+        // each once: constants have registers
+        Recorded::Number(number) => *numbers.entry(number.to_bits()).or_insert_with(|| values.number(number)),
     };
     for (operation, [a, b]) in steps {
-        let a = value(values, &results, a)?;
-        let b = if operation.is_unary() { None } else { Some(value(values, &results, b)?) };
+        let a = value(values, &results, a);
+        let b = (!operation.is_unary()).then(|| value(values, &results, b));
         results.push(values.result(operation, a, b));
     }
     outputs.into_iter().map(|output| value(values, &results, output)).collect()

@@ -50,11 +50,14 @@ impl Values {
             Operand::Name(name) => {
                 self.names.get(name).copied().ok_or_else(|| format!("`{name}` is used before it is known"))
             }
-            Operand::Number(number) => {
-                self.all.push(Value::Constant(Source::Number(*number)));
-                Ok(self.all.len() - 1)
-            }
+            Operand::Number(number) => Ok(self.number(*number)),
         }
+    }
+
+    /// Adds a number of the program.
+    pub fn number(&mut self, number: f64) -> usize {
+        self.all.push(Value::Constant(Source::Number(number)));
+        self.all.len() - 1
     }
 
     /// Adds the result of an operation that has no name.
