@@ -9,6 +9,7 @@ use crate::capture::contact_pair::ContactPair;
 use crate::capture::heavy_target::HeavyTarget;
 use crate::capture::impact::{ImpactSolution, solve_impact};
 use crate::capture::post_capture::wheels;
+use crate::capture::proximity::part_pair::SHORTEST;
 use crate::capture::residual_motion::ResidualMotion;
 use crate::capture::target_motion::TargetMotion;
 use crate::capture::{CaptureResult, CaseResult, LaterImpact, ModelFactory, Observer, PATH_BOUND, StudyError};
@@ -136,9 +137,11 @@ impl<'a> CaptureSequence<'a> {
         observer: &mut dyn Observer,
     ) -> Result<CaseResult, StudyError> {
         let phase = self.track(&mut EndTime(overlap.1), observer)?;
+        // a case that ends where it begins has no path: its distances are those of the shortest one
+        let shortest = (overlap.1 <= 0.0).then(|| self.track(&mut EndTime(SHORTEST), observer)).transpose()?;
         let mut clearance = ClearanceTracker::new(self.scenario, &[]);
         clearance
-            .add_phase(&phase.path, 0.0, TargetMotion::Free(start), &[])
+            .add_phase(&shortest.as_ref().unwrap_or(&phase).path, 0.0, TargetMotion::Free(start), &[])
             .map_err(|error| self.clearance_error(error, ("approach", &phase)))?;
         clearance.end_at(overlap);
         Ok(CaseResult {

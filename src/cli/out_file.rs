@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// Whether the file may be there already.
 #[derive(Debug, clap::Args)]
 pub struct Force {
-    /// Replace the file, whatever it is.
+    /// Replace the file.
     #[arg(long, requires = "out")]
     force: bool,
 }
@@ -22,19 +22,25 @@ pub fn svg(text: &str) -> Result<PathBuf, String> {
     }
 }
 
-/// Refuses a file that exists, and is not to be replaced, and one that has no folder to be in.
+/// Refuses a file that exists, and is not to be replaced, what is there and is no file, and a path that has no folder to be
+/// in.
 pub fn check_new(path: Option<&Path>, Force { force }: &Force) -> Result<(), CommandError> {
     let Some(path) = path else { return Ok(()) };
-    if path.exists() && !force {
-        let file = path.display();
-        let message = format!("{file} already exists: choose another file, or replace it with --force");
-        return Err(CommandError::Usage(message));
-    }
-    check_folder(path)
+    let file = path.display();
+    let problem = match path.metadata() {
+        Ok(found) if !found.is_file() => format!("{file} is a folder, a device or a pipe: choose another file"),
+        Ok(_) if !force => format!("{file} already exists: choose another file, or replace it with --force"),
+        _ => return check_folder(path),
+    };
+    Err(CommandError::Usage(problem))
 }
 
-/// Refuses a file whose folder is not there.
+/// Refuses a file whose folder is not there, and the path of a folder.
 pub fn check_folder(path: &Path) -> Result<(), CommandError> {
+    if path.as_os_str().to_string_lossy().ends_with(std::path::is_separator) {
+        let message = format!("cannot write {}: it ends as the path of a folder does", path.display());
+        return Err(CommandError::Usage(message));
+    }
     match path.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
         Some(folder) => {
             let (file, folder) = (path.display(), folder.display());
@@ -48,7 +54,8 @@ pub fn check_folder(path: &Path) -> Result<(), CommandError> {
 pub fn write_new(path: Option<&Path>, force: &Force, text: &str) -> Result<(), CommandError> {
     check_new(path, force)?;
     match path {
-        Some(path) => Ok(write_text(path, text)?),
+        // through a link: the file that it names is replaced, not the link
+        Some(path) => Ok(write_text(&path.canonicalize().unwrap_or_else(|_| path.to_owned()), text)?),
         None => print_product(text),
     }
 }

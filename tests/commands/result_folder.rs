@@ -253,7 +253,9 @@ fn the_last_bytes_of_a_file_are_not_lost() {
     let folder = TempDir::new().expect("a folder");
     let path = folder.path().join("l.toml");
     for content in [None, Some("older")] {
-        content.into_iter().for_each(|text| fs::write(&path, text).expect("written"));
+        if let Some(text) = content {
+            fs::write(&path, text).expect("written");
+        }
         let mut limited = Command::new("sh");
         limited
             .args(["-c", "ulimit -f 1; exec \"$0\" template layout --out l.toml --force"])
@@ -264,6 +266,34 @@ fn the_last_bytes_of_a_file_are_not_lost() {
         assert_eq!(fs::read_to_string(&path).ok().as_deref(), content);
         assert_eq!(names(folder.path()).len(), usize::from(content.is_some()));
     }
+}
+
+/// What a command writes is a file: `--force` puts none in the place of a pipe, and a link goes on to lead to its file.
+#[cfg(unix)]
+#[test]
+fn files_are_not_put_in_the_place_of_other_things() {
+    let folder = TempDir::new().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    let run = |name: &str| {
+        let mut command = command();
+        command.args(["template", "layout", "--force", "--out"]).arg(path(name));
+        let (code, _, err) = planar_proof::said(crate::within_a_minute(command));
+        (code, err)
+    };
+    crate::make_pipe(&path("pipe"));
+    fs::create_dir(path("inner")).expect("a folder");
+    std::os::unix::fs::symlink(path("pipe"), path("to_pipe")).expect("a link");
+    for name in ["pipe", "inner", "to_pipe"] {
+        let (code, err) = run(name);
+        assert!(code == 2 && err.contains("is a folder, a device or a pipe: choose another file"), "{name}: {err}");
+        assert!(!path(name).metadata().expect("still there").is_file(), "{name}");
+    }
+    let (code, err) = run("new.toml/");
+    assert!(code == 2 && err.contains("it ends as the path of a folder does"), "{err}");
+    fs::write(path("old.toml"), "older").expect("written");
+    std::os::unix::fs::symlink(path("old.toml"), path("link.toml")).expect("a link");
+    assert_eq!(run("link.toml").0, 0);
+    assert!(path("link.toml").is_symlink() && fs::read_to_string(path("old.toml")).expect("a file").contains("[base]"));
 }
 
 /// Nobody writes into this pipe: whoever opens it waits for good.

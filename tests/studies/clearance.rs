@@ -186,6 +186,9 @@ fn overlaps_at_the_start_stop_the_case_there() {
         let stopped = (rule == "stop").then_some(0.0);
         assert_eq!((case.stopped, approach.samples.len()), (stopped, rows), "{rule}");
         assert_eq!((approach.duration.to_bits() == 0, case.clearance.overlaps.len()), (rule == "stop", 1), "{rule}");
+        // how deep they are is known, too
+        let least = case.clearance.least.as_ref().expect("a distance");
+        assert!(least.distance < -0.05 && least.bodies.iter().all(|body| body.starts_with("targets/")), "{least:?}");
     }
 }
 

@@ -40,7 +40,7 @@ pub fn in_rust(function: &Function, scope: &Scope<'_>, is_fused: bool) -> Vec<St
 
 /// The lines in C that compute the outputs from the matrices, and the pivot's name.
 pub fn in_c(function: &Function, scope: &Scope<'_>) -> (Vec<String>, String) {
-    let jacobian = function.matrices.iter().map(|matrix| matrix.elements.len()).last().unwrap_or_default();
+    let jacobian = function.matrices.iter().map(|matrix| matrix.elements.len()).next_back().unwrap_or_default();
     let mut lines = vec!["/* impact equations */".to_owned(), format!("real jacobian[{jacobian}];")];
     for (name, matrix) in ["impact_matrix", "jacobian"].iter().zip(&function.matrices) {
         let elements = matrix.elements.iter().enumerate();

@@ -236,13 +236,16 @@ fn render_function(
     if in_loops {
         lines.extend(loops::in_rust(function, &scope, is_fused));
     }
-    let arrays = outputs.iter().map(|output| if in_loops { output.name.clone() } else { scope.array(output) });
     let single = outputs.len() == 1;
     if single {
-        lines.extend(arrays);
+        lines.extend(outputs.iter().map(|output| scope.array(output)));
     } else {
+        let field = |output: &Variable| {
+            let array = if in_loops { String::new() } else { format!(": {}", scope.array(output)) };
+            format!("    {}{array},", output.name)
+        };
         lines.push(format!("{} {{", camel_case(name)));
-        lines.extend(outputs.iter().zip(arrays).map(|(output, array)| format!("    {}: {array},", output.name)));
+        lines.extend(outputs.iter().map(field));
         lines.push("}".to_owned());
     }
     let bindings = bindings(&lines, "self.model", Syntax::Rust);
