@@ -14,7 +14,7 @@ import casadi as ca
 from .equations_of_motion import EquationsOfMotion
 from .inputs import CONFIGURATION, STATE, TARGETS, Inputs
 from .linear_algebra import ldlt_solve, matrix_times
-from .reduced_dynamics import ReducedDynamics
+from .reduced_dynamics import ReducedDynamics, generalized_matrices
 from .signatures import Family, Function, Section, matrix, smallest_pivot, vector
 
 # Products in G and in its factorization: with more of them loops are not slower than single assignments, which leave
@@ -67,7 +67,7 @@ def reduced_impact(reduced: ReducedDynamics, inputs: Inputs) -> Function:
     g, h, equations = impact_equations(jacobian, inertia, matrix_times(inertia, inputs.joint_rates), inputs)
     joints = reduced.symbols.joints
     rates, pivot, solution = ldlt_solve(reduced.symbols, g, h, [*reversed(range(joints))])
-    matrices = [*reduced.matrices()] if is_in_loops(inputs.contacts.shape[1], joints) else []
+    in_loops = is_in_loops(inputs.contacts.shape[1], joints)
     return Function(
         "reduced_impact",
         "Impact by the paper's equations; exact only if the robot has no momentum after it.",
@@ -81,7 +81,7 @@ def reduced_impact(reduced: ReducedDynamics, inputs: Inputs) -> Function:
             smallest_pivot(pivot),
         ],
         [*reduced_sections, *equations, *solution],
-        matrices,
+        generalized_matrices(inertia, jacobian) if in_loops else [],
     )
 
 

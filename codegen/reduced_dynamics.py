@@ -90,20 +90,18 @@ class ReducedDynamics:
                 jacobian[3 * i : 3 * i + 3, joint] = ca.vertcat(*column)
         return jacobian
 
-    def matrices(self) -> tuple[Output, Output]:
-        """(I, J)."""
-        inertia = matrix("generalized_inertia", "kg m^2", "symmetric, row-major", self.generalized_inertia())
-        jacobian = matrix(
-            "generalized_jacobian",
-            "1, m, m per arm",
-            "3 rows [omega, vx, vy] per arm, inertial axes: end-effector twists of a robot of zero momentum",
-            self.generalized_jacobian(),
-        )
-        return inertia, jacobian
+
+def generalized_matrices(inertia: ca.SX, jacobian: ca.SX) -> list[Output]:
+    """I and J as results."""
+    twists = "3 rows [omega, vx, vy] per arm, inertial axes: end-effector twists of a robot of zero momentum"
+    return [
+        matrix("generalized_inertia", "kg m^2", "symmetric, row-major", inertia),
+        matrix("generalized_jacobian", "1, m, m per arm", twists, jacobian),
+    ]
 
 
 def reduced_dynamics_family(reduced: ReducedDynamics) -> Family:
-    inertia, jacobian = reduced.matrices()
+    inertia, jacobian = generalized_matrices(reduced.generalized_inertia(), reduced.generalized_jacobian())
     bias = vector("generalized_bias", "N m", "arm by arm", reduced.generalized_bias())
     pivot = smallest_pivot(reduced.smallest_pivot())
     source = "Raina & Shah (2017), eq. (2); Umetani & Yoshida (1989)"

@@ -1,7 +1,8 @@
 //! Sizes and derivation time of a robot's graph and module.
 
 use crate::{Problem, REPEATS, shape::Shape};
-use planar_capture::build::{Arithmetic, Module};
+use planar_capture::build::Module;
+use planar_capture::build::pipeline::arithmetic;
 use planar_capture::generate::{complete, derive};
 use planar_capture::python_package::PYTHON_PACKAGE;
 use serde_json::Value;
@@ -36,11 +37,7 @@ impl Derivation {
             let module = Module {
                 standalone,
                 item: !standalone,
-                // as build scripts render for this processor
-                arithmetic: Arithmetic {
-                    is_fused: false,
-                    is_paired: cfg!(any(target_arch = "x86_64", target_arch = "aarch64")),
-                },
+                arithmetic: arithmetic(),
                 source: "the scaling benchmark",
                 command: "cargo run",
             };

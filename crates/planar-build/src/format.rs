@@ -192,6 +192,12 @@ impl Graph {
     pub(crate) fn functions(&self) -> impl Iterator<Item = &Function> + Clone {
         self.families.iter().flat_map(|family| &family.functions)
     }
+
+    /// What a function takes besides the configuration, in its order.
+    pub(crate) fn inputs_of_call<'a>(&'a self, function: &'a Function) -> impl Iterator<Item = &'a Variable> {
+        let names = function.inputs.iter().filter(|name| !["base_pose", "joint_angles"].contains(&name.as_str()));
+        names.filter_map(|name| self.inputs.iter().find(|input| input.name == *name))
+    }
 }
 
 impl Function {

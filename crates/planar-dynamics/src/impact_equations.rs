@@ -127,6 +127,7 @@ fn factor<T: Scalar, Row: AsRef<[T]> + AsMut<[T]> + Clone, const FUSED: bool>(ma
     }
     smallest
 }
+
 /// Solves a system of equations by the factors of [`factor`].
 #[inline(always)]
 #[allow(clippy::inline_always, reason = "as for its caller")]

@@ -4,7 +4,7 @@ use super::argument::Argument;
 use super::execute::{Registers, execute, registers};
 use super::instruction::Register;
 use super::program::Program;
-use super::recorded::{Sizes, impact_equations};
+use super::recorded::in_loops;
 use super::values::{Source, Value, Values};
 use crate::format::{Family, Function as GraphFunction, Graph, Operand};
 use std::cell::RefCell;
@@ -127,7 +127,12 @@ impl Function {
         let roots = function.roots().iter().flat_map(|root| &root.elements);
         let mut wanted = roots.map(|element| values.operand(element)).collect::<Result<Vec<_>, _>>()?;
         if function.is_in_loops() {
-            wanted = in_loops(graph, function, &mut values, wanted)?;
+            for input in graph.inputs_of_call(function) {
+                for element in 0..input.shape.iter().product() {
+                    wanted.push(values.operand(&Operand::Name(input.element(element)))?);
+                }
+            }
+            wanted = in_loops(&mut values, function, &wanted);
         }
         let mut ranges = Vec::with_capacity(function.outputs.len());
         let mut end = 0;
@@ -145,24 +150,4 @@ impl Function {
             outputs: function.outputs.iter().map(Argument::new).collect(),
         })
     }
-}
-
-/// The outputs of a function as rendered code computes them: in loops, from its matrices.
-fn in_loops(
-    graph: &Graph,
-    function: &GraphFunction,
-    values: &mut Values,
-    mut given: Vec<usize>,
-) -> Result<Vec<usize>, String> {
-    let of_call = function.inputs.iter().filter(|name| !["base_pose", "joint_angles"].contains(&name.as_str()));
-    for name in of_call {
-        let input = graph.inputs.iter().find(|input| input.name == *name);
-        let input = input.ok_or_else(|| format!("its input `{name}` is not declared"))?;
-        for element in 0..input.shape.iter().product() {
-            given.push(values.operand(&Operand::Name(input.element(element)))?);
-        }
-    }
-    let rows =
-        |index: usize| function.matrices.get(index).and_then(|matrix| matrix.shape.first()).copied().unwrap_or(0);
-    Ok(impact_equations(values, Sizes { arms: rows(1) / 3, joints: rows(0) }, &given))
 }

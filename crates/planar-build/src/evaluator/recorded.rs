@@ -1,9 +1,9 @@
 //! Numbers that record what is computed from them: the loops of the core as the operations of a program, which then has
 //! their bits.
 
+use super::impact_equations::impact_equations;
 use super::values::Values;
-use crate::format::Operation;
-use planar_dynamics::impact_equations::ImpactEquations;
+use crate::format::{Function, Operation};
 use planar_dynamics::scalar::Scalar;
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -26,18 +26,11 @@ thread_local! {
     static STEPS: RefCell<Vec<Step>> = const { RefCell::new(Vec::new()) };
 }
 
-/// The sizes of the paper's impact.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Sizes {
-    pub arms: usize,
-    pub joints: usize,
-}
-
-/// Adds the results of the impact equations to the values of a program, from `given` ones, one after the other:
-/// generalized inertia and Jacobian, joint rates, masses and inertias of targets, contacts and twists. Returns G, H, the
-/// joint rates after the impact, and the smallest pivot.
-pub(super) fn impact_equations(values: &mut Values, sizes: Sizes, given: &[usize]) -> Vec<usize> {
-    let (steps, outputs) = steps(sizes);
+/// Adds the results of the [`impact_equations`] to the values of a program, from `given` ones.
+pub(super) fn in_loops(values: &mut Values, function: &Function, given: &[usize]) -> Vec<usize> {
+    let all: Vec<Recorded> = (0..given.len()).map(Recorded::Given).collect();
+    let outputs = impact_equations(function, &all);
+    let steps = STEPS.take();
     let (mut numbers, mut results) = (HashMap::new(), Vec::with_capacity(steps.len()));
     let mut value = |values: &mut Values, results: &[usize], recorded: Recorded| match recorded {
         Recorded::Given(index) => given[index],
@@ -51,33 +44,6 @@ pub(super) fn impact_equations(values: &mut Values, sizes: Sizes, given: &[usize
         results.push(values.result(operation, a, b));
     }
     outputs.into_iter().map(|output| value(values, &results, output)).collect()
-}
-
-/// The operations, and what the results are.
-fn steps(Sizes { arms, joints }: Sizes) -> (Vec<Step>, Vec<Recorded>) {
-    let mut next = 0;
-    let mut given = |count: usize| -> Vec<Recorded> {
-        next += count;
-        (next - count..next).map(Recorded::Given).collect()
-    };
-    let rows = |entries: Vec<Recorded>| -> Vec<Vec<Recorded>> {
-        entries.chunks_exact(joints.max(1)).map(<[Recorded]>::to_vec).collect()
-    };
-    let (mut matrix, generalized_jacobian) = (rows(given(joints * joints)), rows(given(3 * arms * joints)));
-    let mut factors = matrix.clone();
-    let [joint_rates, target_masses, target_inertias] = [joints, arms, arms].map(&mut given);
-    let (contacts, target_twists) = (given(2 * arms), given(3 * arms));
-    let equations = ImpactEquations {
-        generalized_jacobian: &generalized_jacobian,
-        joint_rates: &joint_rates,
-        target_masses: &target_masses,
-        target_inertias: &target_inertias,
-        contacts: contacts.as_chunks().0,
-        target_twists: target_twists.as_chunks().0,
-    };
-    let [mut momentum, mut after] = [(); 2].map(|()| vec![Recorded::ZERO; joints]);
-    let pivot = equations.solve::<false>(&mut matrix, &mut factors, &mut momentum, &mut after);
-    (STEPS.take(), [matrix.concat(), momentum, after, vec![pivot]].concat())
 }
 
 fn record(operation: Operation, a: Recorded, b: Recorded) -> Recorded {

@@ -1,7 +1,7 @@
 //! Interprets a graph: computes what the rendered code will compute, without compiling it.
 
+use crate::evaluator::impact_equations;
 use crate::format::{Function, FunctionResult, Given, Graph, Operand, Operation, Statement, Variable};
-use planar_dynamics::impact_equations::ImpactEquations;
 use planar_dynamics::scalar::Scalar;
 use std::collections::HashMap;
 
@@ -27,31 +27,20 @@ pub fn interpret(graph: &Graph, arguments: Arguments<'_>) -> Result<Vec<Function
 pub fn interpret_loops(graph: &Graph, arguments: Arguments<'_>) -> Result<Vec<FunctionResult>, String> {
     let scalar = |_: &str, _: usize, value: f64| value;
     let matrices = results(graph, arguments, &scalar, &Function::is_in_loops, |function| &function.matrices)?;
-    let given = |name: &str| {
-        let mut inputs = arguments.inputs.iter();
-        inputs.find(|given| given.name == name).map_or(&[][..], |given| &given.values)
-    };
-    let joints = given("joint_rates").len();
-    let rows = |values: &[f64]| values.chunks_exact(joints.max(1)).map(<[f64]>::to_vec).collect::<Vec<_>>();
     let functions = graph.functions().filter(|function| function.is_in_loops());
     let mut found = Vec::new();
     for (function, [inertia, jacobian]) in functions.zip(matrices.as_chunks().0) {
-        let equations = ImpactEquations {
-            generalized_jacobian: &rows(&jacobian.values),
-            joint_rates: given("joint_rates"),
-            target_masses: given("target_masses"),
-            target_inertias: given("target_inertias"),
-            contacts: given("contacts").as_chunks().0,
-            target_twists: given("target_twists").as_chunks().0,
-        };
-        let (mut matrix, mut factors) = (rows(&inertia.values), rows(&inertia.values));
-        let (mut momentum, mut after) = (vec![0.0; joints], vec![0.0; joints]);
-        let pivot = equations.solve::<false>(&mut matrix, &mut factors, &mut momentum, &mut after);
-        let values = [matrix.concat(), momentum, after, vec![pivot]];
-        found.extend(function.outputs.iter().zip(values).map(|(output, values)| FunctionResult {
+        let mut given = [&inertia.values[..], &jacobian.values].concat();
+        for input in graph.inputs_of_call(function) {
+            given.extend(
+                arguments.inputs.iter().filter(|given| given.name == input.name).flat_map(|given| &given.values),
+            );
+        }
+        let mut values = impact_equations(function, &given).into_iter();
+        found.extend(function.outputs.iter().map(|output| FunctionResult {
             function: function.name.clone(),
             output: output.name.clone(),
-            values,
+            values: values.by_ref().take(output.elements.len()).collect(),
             sizes: Vec::new(),
         }));
     }

@@ -250,8 +250,7 @@ fn render_function(
     }
     let bindings = bindings(&lines, "self.model", Syntax::Rust);
     let inputs: Vec<Value> = function.inputs.iter().map(|name| variable(input(graph, name))).collect();
-    let of_call = |input: &&Value| input["name"] != "base_pose" && input["name"] != "joint_angles";
-    let call_inputs: Vec<&Value> = inputs.iter().filter(of_call).collect();
+    let call_inputs: Vec<Value> = graph.inputs_of_call(function).map(variable).collect();
     let call_names: Vec<&Value> = call_inputs.iter().map(|input| &input["name"]).collect();
     json!({
         "name": name,
