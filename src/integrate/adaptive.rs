@@ -1,9 +1,9 @@
 //! Adaptive steps by a pair of formulas, with dense output.
 
-use super::blocks::{BLOCK, Blocks, combine, largest_error};
+use super::blocks::{BLOCK, Blocks, chebyshev, combine, largest_error, sum};
 use super::continuation::Continuation;
 use super::motion::Motion;
-use super::pair::{DORMAND_PRINCE, MOST_STAGES, Pair, VERNER};
+use super::pair::{DEGREE, DORMAND_PRINCE, MOST_STAGES, Pair, VERNER};
 use crate::error::Error;
 
 /// The next step over the one that the error estimate allows.
@@ -65,7 +65,8 @@ pub struct Adaptive {
     rate: Blocks,
     /// ẋ at the stages of the last step, one after the other.
     stages: Blocks,
-    /// Whether those of the interpolant are among them.
+    /// The coefficients of the interpolant over the last step, one after the other, if it is found yet.
+    interpolant: Blocks,
     is_dense: bool,
     /// The next step, s.
     step: f64,
@@ -110,6 +111,7 @@ impl Adaptive {
             ends: [Vec::new(), Vec::new()],
             rate: Vec::new(),
             stages: Vec::new(),
+            interpolant: Vec::new(),
             is_dense: false,
             step: 0.0,
             next_step: 0.0,
@@ -135,6 +137,7 @@ impl Adaptive {
         self.ends.iter_mut().chain([&mut self.working, &mut self.rate]).for_each(|vector| resize(vector, blocks));
         self.continuation.reset(blocks);
         resize(&mut self.stages, MOST_STAGES * blocks);
+        resize(&mut self.interpolant, DEGREE * blocks);
         self.ends[1].as_flattened_mut()[..x.len()].copy_from_slice(x);
         self.span = [time, time];
         motion.derivative(time, x, &mut self.rate.as_flattened_mut()[..x.len()])?;
@@ -176,10 +179,10 @@ impl Adaptive {
             into.copy_from_slice(self.x());
             return Ok(());
         }
-        self.add_stages_of_interpolant(motion)?;
+        self.find_interpolant(motion)?;
         let length = now - before;
-        let (weights, count) = self.pair.weights_within((time.max(before) - before) / length);
-        combine(&self.ends[0], length, &weights[..count], &self.stages, &mut self.working);
+        let part = (time.max(before) - before) / length;
+        chebyshev(&self.ends[0], length, part, &self.interpolant, &mut self.working);
         into.copy_from_slice(&self.working.as_flattened()[..self.size]);
         Ok(())
     }
@@ -307,8 +310,8 @@ impl Adaptive {
         motion.derivative(time, &at.as_flattened()[..*size], &mut rate.as_flattened_mut()[..*size])
     }
 
-    /// Evaluates the stages of the interpolant over the last step, once.
-    fn add_stages_of_interpolant(&mut self, motion: &mut dyn Motion) -> Result<(), Error> {
+    /// Evaluates the stages of the interpolant over the last step, and from all its coefficients, once.
+    fn find_interpolant(&mut self, motion: &mut dyn Motion) -> Result<(), Error> {
         if self.is_dense {
             return Ok(());
         }
@@ -319,6 +322,9 @@ impl Adaptive {
         self.stages[stages * blocks..(stages + 1) * blocks].copy_from_slice(&self.rate);
         for stage in stages + 1..self.pair.all_stages() {
             self.add_stage(start, end - start, 0, stage, motion)?;
+        }
+        for (row, coefficients) in self.pair.interpolant.iter().zip(self.interpolant.chunks_exact_mut(blocks)) {
+            sum(row, &self.stages, coefficients);
         }
         self.is_dense = true;
         Ok(())

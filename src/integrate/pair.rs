@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 /// Most stages of a step and its interpolant.
 pub(super) const MOST_STAGES: usize = 26;
 /// The largest degree of an interpolant.
-const DEGREE: usize = 9;
+pub(super) const DEGREE: usize = 9;
 
 /// The error of a step over the divided difference of its rates. With less, errors under fast feedback exceed ten tolerances; twice as
 /// much takes a tenth more evaluations.
@@ -43,8 +43,9 @@ pub(super) struct Pair {
     pub(super) continued: [usize; NODES],
     /// Their weights in the second to the fifth power of time.
     pub(super) continuing: [[f64; NODES]; 4],
-    /// Of stages the polynomials of their weights within the step: the factors of s, s² …; those that are not zero.
-    interpolant: Vec<(usize, [f64; DEGREE])>,
+    /// Weights of the stages within the step, over the part s of it that has passed, by Chebyshev's polynomials of 2 s - 1. They
+    /// are as small as the weights are; those of powers of s are hundreds of times as large, and so are their rounding errors.
+    pub(super) interpolant: [Row; DEGREE],
 }
 
 /// Verner's "most efficient" pair of orders 9 and 8 with an interpolant of order 9: the fewest evaluations for a smooth motion.
@@ -56,7 +57,7 @@ pub(super) static VERNER: LazyLock<Pair> = LazyLock::new(|| {
     Pair {
         order: 9.0,
         errors: row(tableau.b.iter().zip(lower).map(|(high, low)| high - low)),
-        interpolant: weighed::<26>(of_stage),
+        interpolant: by_chebyshev::<26>(of_stage),
         ..Pair::formula(&tableau, [0, 10, 8, 11, 16])
     }
 });
@@ -82,7 +83,7 @@ pub(super) static DORMAND_PRINCE: LazyLock<Pair> = LazyLock::new(|| {
     Pair {
         order: 8.0,
         errors: divided_difference(&row(tableau.b), &tableau.c),
-        interpolant: weighed::<16>(of_stage),
+        interpolant: by_chebyshev::<16>(of_stage),
         ..Pair::formula(&tableau, [0, 6, 9, 10, 12])
     }
 });
@@ -112,7 +113,7 @@ impl Pair {
             defects: (0..I).map(defects).collect(),
             continued,
             continuing: integrated_weights(&continued.map(|stage| nodes[stage])),
-            interpolant: Vec::new(),
+            interpolant: Default::default(),
             nodes,
             rows,
             weights,
@@ -129,23 +130,31 @@ impl Pair {
     pub(super) fn landing(&self) -> f64 {
         self.stages as f64 / (self.all_stages() - 1) as f64
     }
-
-    /// The weights of the stages at s, from 0 to 1, within a step, and how many these are.
-    pub(super) fn weights_within(&self, s: f64) -> ([(usize, f64); MOST_STAGES], usize) {
-        let mut weights = [(0, 0.0); MOST_STAGES];
-        for (weight, (stage, factors)) in weights.iter_mut().zip(&self.interpolant) {
-            *weight = (*stage, factors.iter().rev().fold(0.0, |sum, factor| sum * s + factor) * s);
-        }
-        (weights, self.interpolant.len())
-    }
 }
 
-/// The stages that an interpolant has a weight for.
-fn weighed<const STAGES: usize>(of_stage: impl Fn(usize) -> [f64; DEGREE]) -> Vec<(usize, [f64; DEGREE])> {
-    (0..STAGES)
-        .map(|stage| (stage, of_stage(stage)))
-        .filter(|(_, factors)| factors.iter().any(|factor| *factor != 0.0))
-        .collect()
+/// Of polynomials of s, one per stage without a constant, those over s by Chebyshev's polynomials: the factors of each.
+fn by_chebyshev<const STAGES: usize>(of_stage: impl Fn(usize) -> [f64; DEGREE]) -> [Row; DEGREE] {
+    let polynomials: [[f64; DEGREE]; STAGES] = std::array::from_fn(|stage| chebyshev(of_stage(stage)));
+    std::array::from_fn(|degree| row(polynomials.iter().map(|factors| factors[degree])))
+}
+
+/// From the factors of 1, s, s² … those of Chebyshev's polynomials of 2 s - 1.
+fn chebyshev(factors: [f64; DEGREE]) -> [f64; DEGREE] {
+    let mut sum = [0.0; DEGREE];
+    for factor in factors.into_iter().rev() {
+        // 4 s Tₖ = Tₖ₋₁ + 2 Tₖ + Tₖ₊₁, where T₋₁ is T₁
+        let mut product = [0.0; DEGREE];
+        for (k, of) in sum.into_iter().enumerate() {
+            for (to, share) in [(k.abs_diff(1), 0.25), (k, 0.5), (k + 1, 0.25)] {
+                if let Some(place) = product.get_mut(to) {
+                    *place += share * of;
+                }
+            }
+        }
+        sum = product;
+        sum[0] += factor;
+    }
+    sum
 }
 
 /// What is not zero of the factors of stages.
