@@ -275,6 +275,16 @@ fn widen(
     }
 }
 
+/// Whether positions are those of a state, which begins with them. All are looked at, several at once.
+#[multiversion(targets("x86_64+avx2"))]
+fn are_near(positions: &[f64], state: &[f64]) -> bool {
+    let mut are_near = true;
+    for (found, value) in positions.iter().zip(state) {
+        are_near &= (found - value).abs() <= TOLERANCE * value.abs().max(1.0);
+    }
+    are_near
+}
+
 impl PathPart for PathInterval<'_> {
     fn span(&self) -> [f64; 2] {
         self.span
@@ -346,9 +356,7 @@ impl PathRecorder {
         let span = [start, time];
         let interval = PathInterval { span, start: knot.split_at(size).into(), end: state.split_at(size).into() };
         interval.at(*at, positions, rates);
-        let between = states.iter().skip(2 * size * middle);
-        let mut pairs = positions.iter().zip(between);
-        pairs.all(|(found, value)| (found - value).abs() <= TOLERANCE * value.abs().max(1.0))
+        are_near(positions, &states[2 * size * middle..])
     }
 
     /// The path up to the last state.

@@ -11,6 +11,7 @@ use crate::simulate::path::{PathInterval, PathPart, path_state};
 use crate::simulate::stepper::StateAt;
 use crate::simulate::system::System;
 use crate::state::{split, split_mut};
+use multiversion::multiversion;
 
 /// Largest deviation of a point of the bodies from its motion, m: a hundredth of the resolution of distances.
 const TOLERANCE: f64 = 1e-8;
@@ -192,11 +193,25 @@ impl Subdivision {
         let [positions, rates] = &self.found;
         // the largest position error of a rate error: a quarter of the interval at most
         let lever = 0.125 * length;
-        self.weights.iter().enumerate().all(|(i, weight)| {
-            let error = (positions[i] - expected[i]).abs().max(lever * (rates[i] - expected_rates[i]).abs());
-            weight * error * share <= TOLERANCE.max(weight * ROUNDING * expected[i].abs())
-        })
+        are_near(&self.weights, [lever, share], (positions, rates), (expected, expected_rates))
     }
+}
+
+/// Whether the weighed errors of positions and rates are small. All are looked at, several at once.
+#[multiversion(targets("x86_64+avx2"))]
+fn are_near(
+    weights: &[f64],
+    [lever, share]: [f64; 2],
+    (positions, rates): (&[f64], &[f64]),
+    (expected, expected_rates): (&[f64], &[f64]),
+) -> bool {
+    let found = weights.iter().zip(positions.iter().zip(rates));
+    let mut are_near = true;
+    for ((weight, (position, rate)), (expected, expected_rate)) in found.zip(expected.iter().zip(expected_rates)) {
+        let error = (position - expected).abs().max(lever * (rate - expected_rate).abs());
+        are_near &= weight * error * share <= TOLERANCE.max(weight * ROUNDING * expected.abs());
+    }
+    are_near
 }
 
 #[cfg(test)]
