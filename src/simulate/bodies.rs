@@ -55,11 +55,11 @@ pub(crate) struct BodySums {
     /// kg.
     pub(crate) mass: f64,
     /// Σ m [x, y], kg m.
-    first_moment: [f64; 2],
+    pub(crate) first_moment: [f64; 2],
     /// [l, px, py] about the inertial origin, N m s, N s.
-    momentum: [f64; 3],
+    pub(crate) momentum: [f64; 3],
     /// J.
-    kinetic_energy: f64,
+    pub(crate) kinetic_energy: f64,
     /// Σ |I ω| + m |r × v| and Σ m |v|, the scales that changes of angular and linear momentum are compared with.
     pub(crate) momentum_sizes: [f64; 2],
 }
@@ -67,21 +67,25 @@ pub(crate) struct BodySums {
 impl BodySums {
     /// Of these bodies.
     pub(crate) fn new(bodies: impl Iterator<Item = Body>) -> Self {
-        bodies.fold(Self::default(), |sums, body| {
-            let Body { mass, inertia, pose: [_, x, y], twist: [omega, vx, vy] } = body;
-            let ([l, px, py], energy) = body.momentum();
-            let ([mx, my], momentum, sizes) = (sums.first_moment, sums.momentum, sums.momentum_sizes);
-            Self {
-                mass: sums.mass + mass,
-                first_moment: [mx + mass * x, my + mass * y],
-                momentum: [momentum[0] + l, momentum[1] + px, momentum[2] + py],
-                kinetic_energy: sums.kinetic_energy + energy,
-                momentum_sizes: [
-                    sizes[0] + ((inertia * omega).abs() + mass * (x * vy - y * vx).abs()),
-                    sizes[1] + mass * (vx * vx + vy * vy).sqrt(),
-                ],
-            }
-        })
+        bodies.fold(Self::default(), |sums, body| sums.with(&body))
+    }
+
+    /// With one body more.
+    #[inline]
+    pub(crate) fn with(&self, body: &Body) -> Self {
+        let Body { mass, inertia, pose: [_, x, y], twist: [omega, vx, vy] } = *body;
+        let ([l, px, py], energy) = body.momentum();
+        let ([mx, my], momentum, sizes) = (self.first_moment, self.momentum, self.momentum_sizes);
+        Self {
+            mass: self.mass + mass,
+            first_moment: [mx + mass * x, my + mass * y],
+            momentum: [momentum[0] + l, momentum[1] + px, momentum[2] + py],
+            kinetic_energy: self.kinetic_energy + energy,
+            momentum_sizes: [
+                sizes[0] + ((inertia * omega).abs() + mass * (x * vy - y * vx).abs()),
+                sizes[1] + mass * (vx * vx + vy * vy).sqrt(),
+            ],
+        }
     }
 
     /// [x, y] of the centre of mass, m.

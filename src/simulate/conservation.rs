@@ -26,8 +26,9 @@ use crate::dynamics::{AnyModel, Momentum};
 use crate::error::Error;
 use crate::scalar::Real;
 use crate::simulate::bodies::{BodyList, BodySums};
+use crate::simulate::body_tree::{BodyTree, LANES, Lanes};
 use crate::simulate::system::Body;
-use crate::state::State;
+use crate::state::{State, StateVector, split};
 
 /// Largest drift of the centre of mass, the integral of the momentum drift, in a phase that passes the audit.
 pub const CENTER_OF_MASS_BOUND: f64 = 1e-9;
@@ -72,15 +73,58 @@ pub struct AccumulatedInput {
 }
 
 /// The conservation errors of a phase so far.
+#[derive(Clone)]
 pub struct ConservationAudit<'a> {
     model: &'a AnyModel<f64>,
     bodies: BodyList,
-    start: Momentum<f64>,
-    center: [f64; 2],
+    tree: BodyTree,
+    start: BodySums,
+    pending: Pending,
     linear: Ratio,
     angular: Ratio,
     energy: Ratio,
     motion: Ratio,
+}
+
+/// Instants that are checked together.
+#[derive(Clone)]
+struct Pending {
+    count: usize,
+    /// One row per coordinate; the others are as the first.
+    positions: Vec<Lanes>,
+    rates: Vec<Lanes>,
+    inputs: [AccumulatedInput; LANES],
+}
+
+impl Pending {
+    /// Adds an instant, if there are as many coordinates.
+    fn push(&mut self, positions: &[f64], rates: &[f64], input: &AccumulatedInput) -> Result<(), Error> {
+        let lane = self.count;
+        for (rows, numbers) in [(&mut self.positions, positions), (&mut self.rates, rates)] {
+            if rows.len() != numbers.len() {
+                let (expected, found) = (rows.len(), numbers.len());
+                return Err(Error::Length { quantity: "audited coordinates", expected, found });
+            }
+            for (row, number) in rows.iter_mut().zip(numbers) {
+                if lane == 0 {
+                    *row = [*number; LANES];
+                }
+                row[lane] = *number;
+            }
+        }
+        self.inputs[lane] = *input;
+        self.count += 1;
+        Ok(())
+    }
+
+    /// The same by its parts: base, joints, bodies beside the robot.
+    fn push_parts(&mut self, state: &State<'_, f64>, beside: &[Body], input: &AccumulatedInput) -> Result<(), Error> {
+        let State { base_pose, joint_angles, base_twist, joint_rates } = *state;
+        let [poses, twists] = [0, 1].map(|i| beside.iter().flat_map(move |body| [body.pose, body.twist][i]));
+        let positions: Vec<f64> = base_pose.into_iter().chain(joint_angles.iter().copied()).chain(poses).collect();
+        let rates: Vec<f64> = base_twist.into_iter().chain(joint_rates.iter().copied()).chain(twists).collect();
+        self.push(&positions, &rates, input)
+    }
 }
 
 /// The largest deviation over the largest scale.
@@ -102,41 +146,66 @@ impl Ratio {
 }
 
 impl<'a> ConservationAudit<'a> {
-    /// Starts at a state, from which the input is counted.
+    /// Starts at a state, from which the input is counted. Bodies are the same ones in every state.
     ///
     /// # Errors
     /// Those of the model.
     pub fn new(model: &'a AnyModel<f64>, state: &State<'_, f64>, beside: &[Body]) -> Result<Self, Error> {
-        let mut bodies = BodyList::new(model)?;
-        let sums = BodySums::new(bodies.at(model, state, beside)?);
-        let (start, center) = (sums.momentum(), sums.center_of_mass());
+        let (bodies, mut tree) = (BodyList::new(model)?, BodyTree::new(model, beside)?);
+        let rows = vec![[0.0; LANES]; tree.coordinates()];
+        let inputs = [AccumulatedInput::default(); LANES];
+        let mut pending = Pending { count: 0, positions: rows.clone(), rates: rows, inputs };
+        pending.push_parts(state, beside, &AccumulatedInput::default())?;
+        let start = tree.sums(&pending.positions, &pending.rates).at(tree.mass(), 0);
         let none = Ratio::default();
-        let mut audit = Self { model, bodies, start, center, linear: none, angular: none, energy: none, motion: none };
-        audit.record(state, beside, &AccumulatedInput::default())?;
-        Ok(audit)
+        Ok(Self { model, bodies, tree, start, pending, linear: none, angular: none, energy: none, motion: none })
     }
 
-    /// Checks one state after the input since the start.
+    /// Checks one state after the input since the start, with the next ones.
     ///
     /// # Errors
-    /// Those of the model.
+    /// [`Error::Length`] for a state of another robot or with other bodies, [`Error::NotFinite`] where the motion of this state
+    /// or of one before it is not finite.
     pub fn record(&mut self, state: &State<'_, f64>, beside: &[Body], input: &AccumulatedInput) -> Result<(), Error> {
-        let bodies = self.bodies.at(self.model, state, beside)?;
-        let sums = BodySums::new(bodies.clone());
-        let now = sums.momentum();
-        let [angular, linear] = sums.momentum_sizes;
-        let [l, px, py] = input.impulse;
-        let [x0, y0] = self.start.linear_momentum;
-        let [x1, y1] = now.linear_momentum;
-        self.linear.record(length([x1 - x0 - px, y1 - y0 - py]), linear);
-        self.energy.record(now.kinetic_energy - self.start.kinetic_energy - input.work, now.kinetic_energy);
-        let [x, y] = sums.center_of_mass();
-        let squares = bodies.map(|body| (body.pose[1] - x).powi(2) + (body.pose[2] - y).powi(2));
-        let extent = squares.fold(0.0, |most, square| if square > most { square } else { most }).sqrt();
-        let [from_x, from_y] = self.center;
-        let [along_x, along_y] = [x0, y0].map(|momentum| momentum / sums.mass * input.time);
-        self.motion.record(length([x - from_x - along_x, y - from_y - along_y]), extent);
-        self.angular.record(now.angular_momentum - self.start.angular_momentum - l, angular);
+        self.pending.push_parts(state, beside, input)?;
+        self.check_when_full()
+    }
+
+    /// The same for an integrated vector of the robot with these bodies.
+    pub(crate) fn record_vector(&mut self, x: &[f64], input: &AccumulatedInput) -> Result<(), Error> {
+        let StateVector { positions, rates, .. } = split(x)?;
+        self.pending.push(positions, rates, input)?;
+        self.check_when_full()
+    }
+
+    fn check_when_full(&mut self) -> Result<(), Error> {
+        if self.pending.count == LANES { self.check() } else { Ok(()) }
+    }
+
+    /// Checks the instants that are pending.
+    fn check(&mut self) -> Result<(), Error> {
+        let Self { tree, start, pending, linear, angular, energy, motion, .. } = self;
+        let count = std::mem::take(&mut pending.count);
+        let sums = tree.sums(&pending.positions, &pending.rates);
+        let (before, center, mass) = (start.momentum(), start.center_of_mass(), start.mass);
+        let velocity = before.linear_momentum.map(|momentum| momentum / mass);
+        for (lane, input) in pending.inputs.iter().take(count).enumerate() {
+            let sum = sums.at(mass, lane);
+            let (now, [of_angular, of_linear]) = (sum.momentum(), sum.momentum_sizes);
+            let [x, y] = sum.center_of_mass();
+            let numbers = [now.kinetic_energy, of_angular, of_linear, x, y];
+            if let Some(index) = numbers.iter().position(|number| !number.is_finite()) {
+                return Err(Error::NotFinite { quantity: "audited motion", index, value: numbers[index] });
+            }
+            let [l, px, py] = input.impulse;
+            let [x0, y0] = before.linear_momentum;
+            let [x1, y1] = now.linear_momentum;
+            linear.record(length([x1 - x0 - px, y1 - y0 - py]), of_linear);
+            angular.record(now.angular_momentum - before.angular_momentum - l, of_angular);
+            energy.record(now.kinetic_energy - before.kinetic_energy - input.work, now.kinetic_energy);
+            let [along_x, along_y] = velocity.map(|velocity| velocity * input.time);
+            motion.record(length([x - center[0] - along_x, y - center[1] - along_y]), sums.extent[lane]);
+        }
         Ok(())
     }
 
@@ -162,13 +231,18 @@ impl<'a> ConservationAudit<'a> {
         Ok(())
     }
 
-    /// The errors so far.
+    /// The errors so far; NaN where a motion was not finite.
     #[must_use]
     pub fn drift(&self) -> ConservationErrors {
+        let mut all = self.clone();
+        if all.pending.count > 0 && all.check().is_err() {
+            let none = f64::NAN;
+            return ConservationErrors { momentum_drift: none, energy_error: none, center_of_mass_drift: none };
+        }
         ConservationErrors {
-            momentum_drift: Real::maximum(self.linear.value(), self.angular.value()),
-            energy_error: self.energy.value(),
-            center_of_mass_drift: self.motion.value(),
+            momentum_drift: Real::maximum(all.linear.value(), all.angular.value()),
+            energy_error: all.energy.value(),
+            center_of_mass_drift: all.motion.value(),
         }
     }
 }

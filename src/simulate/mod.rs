@@ -22,6 +22,7 @@
 
 pub mod actuators;
 pub(crate) mod bodies;
+mod body_tree;
 pub mod conservation;
 mod continued_motion;
 mod equation;

@@ -62,8 +62,7 @@ impl<'a> Recorder<'a> {
         let input = AccumulatedInput { time, work: work.total(), impulse: [work.base_impulse, 0.0, 0.0] };
         let errors = self.system.constraint_errors(x)?;
         self.constraint_errors = std::array::from_fn(|i| Real::maximum(errors[i], self.constraint_errors[i]));
-        let state = State::from_vector(x, self.system.model.joints())?;
-        self.audit.record(&state, &self.system.bodies_at(x)?, &input)
+        self.audit.record_vector(x, &input)
     }
 
     /// Notes which actuators the law's torques saturate at an instant, and keeps a sample if `sampled`.

@@ -8,6 +8,7 @@
 )]
 
 use super::bodies::{BodySums, bodies, inertia_about};
+use super::body_tree::{BodyTree, LANES};
 use super::conservation::{AccumulatedInput, ConservationAudit};
 use super::event::{EndTime, EventState, Events, NoEvents};
 use super::limits::{JointLimits, LimitViolation, LimitViolations};
@@ -18,6 +19,7 @@ use super::system::{Body, System};
 use super::{Phase, PhaseError, Sample, Saturation, Timing, simulate};
 use crate::contact::{ContactPartner, LoopConstraint};
 use crate::control::{ProportionalDerivative, SampledControl, TorqueLimiter, ZeroTorque};
+use crate::dynamics::Momentum;
 use crate::error::Error;
 use crate::owned::{CloneModel, RobotState};
 use crate::registry;
@@ -296,6 +298,45 @@ fn inertia_is_twice_the_energy_of_a_rotation() {
         };
         let energy: f64 = all.iter().map(turned).sum();
         assert_close("inertia", &[inertia_about(&all, about)], &[2.0 * energy], 1e-12 * energy);
+    }
+}
+
+/// Several instants at once have the sums of each, where angles are far from 0, too: those of bodies where generated code has them.
+#[test]
+fn sums_of_several_instants() {
+    let model = registry::generic(&layout("dual_arm_3r"));
+    let beside = |i: f64| Body { mass: 4.0, inertia: 0.3, pose: [i, 1.5 - i, 2.0], twist: [0.2, 0.1 * i, -0.4] };
+    for far in [0.0, 1e9] {
+        let states = std::array::from_fn::<_, LANES, _>(|lane| {
+            let i = lane as f64;
+            let joint_angles = vec![0.3 * i, -1.2, 0.7 - 0.1 * i, far, 0.4, -0.2 * i];
+            let joint_rates = vec![0.5, -0.3 * i, 0.2, 0.1 * i, -0.6, 0.4];
+            RobotState { base_pose: [0.1 * i, 2.0, -1.0], joint_angles, base_twist: [0.1, 0.2 * i, -0.3], joint_rates }
+        });
+        let numbers = |lane: usize| {
+            let (state, body) = (&states[lane], beside(lane as f64));
+            [
+                [&state.base_pose[..], &state.joint_angles, &body.pose].concat(),
+                [&state.base_twist[..], &state.joint_rates, &body.twist].concat(),
+            ]
+        };
+        let row = |half: usize, i: usize| std::array::from_fn(|lane| numbers(lane)[half][i]);
+        let [positions, rates]: [Vec<_>; 2] = [0, 1].map(|half| (0..12).map(|i| row(half, i)).collect());
+        let mut tree = BodyTree::new(&*model, &[beside(0.0)]).expect("a robot");
+        let (sums, mass) = (tree.sums(&positions, &rates), tree.mass());
+        for (lane, state) in states.iter().enumerate() {
+            let all = bodies(&*model, &state.view(), &[beside(lane as f64)]).expect("bodies");
+            let (one, found) = (BodySums::new(all.iter().copied()), sums.at(mass, lane));
+            let numbers = |sums: &BodySums| {
+                let Momentum { linear_momentum: [px, py], angular_momentum, kinetic_energy } = sums.momentum();
+                let ([x, y], [angular, linear]) = (sums.center_of_mass(), sums.momentum_sizes);
+                [sums.mass, px, py, angular_momentum, kinetic_energy, x, y, angular, linear]
+            };
+            assert_close("sums", &numbers(&found), &numbers(&one), 1e-10);
+            let [x, y] = one.center_of_mass();
+            let extent = all.iter().map(|body| (body.pose[1] - x).hypot(body.pose[2] - y)).fold(0.0, f64::max);
+            assert_close("extent", &[sums.extent[lane]], &[extent], 1e-12);
+        }
     }
 }
 

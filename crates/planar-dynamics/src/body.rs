@@ -30,6 +30,7 @@ pub struct Body<T> {
 
 impl<T: Scalar> Body<T> {
     /// Momentum [l, px, py] about the inertial origin and kinetic energy; N m s, N s, J.
+    #[inline]
     #[must_use]
     pub fn momentum(&self) -> ([T; 3], T) {
         let ([_, x, y], [omega, vx, vy]) = (self.pose, self.twist);
