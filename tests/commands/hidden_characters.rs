@@ -13,7 +13,7 @@ use std::fs;
 /// Those that rustc refuses in literals and comments, marks and isolates, and others that show nothing.
 const HIDDEN: &str = "\u{0}\u{1b}\u{7f}\u{85}\u{9b}\u{ad}\u{61c}\u{200b}\u{200e}\u{200f}\u{2028}\u{202a}\u{202b}\u{202c}\u{202d}\
                       \u{202e}\u{2060}\u{2066}\u{2067}\u{2068}\u{2069}\u{feff}\u{e0041}\u{34f}\u{115f}\u{1160}\u{17b4}\u{3164}\u{fe0f}\u{ffa0}\
-                      \u{1d173}\u{e0100}";
+                      \u{1d173}\u{e0100}\u{fffe}\u{10ffff}\u{fdd0}";
 
 /// Checks a refusal: file, line, key, and the value, with its hidden character as an escape sequence.
 #[track_caller]
@@ -58,7 +58,7 @@ fn names_and_paths_of_scenarios_have_none() {
         ("name = \"case1\"", "`case[0].name`"),
     ] {
         let line = text.lines().position(|line| line.starts_with(from)).unwrap_or_else(|| panic!("no `{from}`")) + 1;
-        for hidden in ['\u{202e}', '\u{2067}', '\u{200f}', '\u{61c}', '\u{9b}'] {
+        for hidden in ['\u{202e}', '\u{2067}', '\u{200f}', '\u{61c}', '\u{9b}', '\u{fffe}', '\u{1ffff}', '\u{fdd0}'] {
             let changed = text.replacen(from, &from.replacen('"', &format!("\"{hidden}"), 1), 1);
             let report = parse(&changed).expect_err("a hidden character").to_string();
             assert_refused(&report, hidden, &[key, &format!("study.toml:{line}:")]);

@@ -117,6 +117,40 @@ fn a_fast_rod_is_met_whatever_the_step() {
     }
 }
 
+/// A bar that spins touches a wall for moments and is apart in between by less than it is long: the overlap begins at the
+/// first touch, where `on_overlap = "stop"` ends the case, too.
+#[test]
+fn overlaps_begin_at_the_first_of_many_touches() {
+    let (half_length, half_width, spin, speed, start) = (4e-3, 4e-4, 1256.0, 0.1, 0.05);
+    let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| [x * half_length, y * half_width]);
+    let target = |name: &str, arm: &str, outline: &[[f64; 2]], x: f64, twist: [f64; 3]| {
+        format!(
+            "[[target]]\nname = \"{name}\"\narm = \"{arm}\"\nkind = \"none\"\nmass = 1.0\ninertia = 0.1\npolygon = {outline:?}\n\
+             yaw = 0.0\nposition = [{x:?}, 30.0]\ntwist = {twist:?}\n"
+        )
+    };
+    let wall = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]];
+    let text = target("bar", "arm1", &corners, -0.5 - start, [spin, speed, 0.0])
+        + &target("wall", "arm2", &wall, 0.0, [0.0; 3]);
+    // how deep a corner is in the face of the wall
+    let depth = |time: f64| {
+        let (sin, cos) = (spin * time).sin_cos();
+        let farthest = corners.iter().map(|[x, y]| cos * x - sin * y).fold(0.0, f64::max);
+        farthest + speed * time - start
+    };
+    let times = || (0..10_000_000).map(|i| 0.45 + 1e-8 * f64::from(i));
+    let first = times().find(|time| depth(*time) > 1e-6).expect("a touch");
+    let touch = first - (0..).map(|i| 1e-8 * f64::from(i)).find(|back| depth(first - back) <= 0.0).expect("a start");
+    for rule in ["report", "stop"] {
+        let text = format!("{text}[clearance]\non_overlap = \"{rule}\"");
+        let result = run_sampled(&at_rest("dual_arm_3r", TWO_ARMS, 0.1, &text), 5.0);
+        let case = &result.cases[0];
+        let overlap = case.clearance.overlaps.first();
+        let began = if rule == "stop" { case.stopped } else { overlap.map(|overlap| overlap.span[0]) };
+        assert!(began.is_some_and(|began| (began - touch).abs() < 1e-6), "{rule}: {began:?}, not {touch}");
+    }
+}
+
 /// `on_overlap = "stop"` ends the case at the first touch of given outlines; `ignore` takes a pair out.
 #[test]
 fn rules_of_overlaps() {

@@ -2,6 +2,7 @@
 //! bound.
 
 use super::bodies::BodyPair;
+use crate::capture::proximity::convex::ConvexPart;
 use crate::capture::proximity::motion::{FrameKinematics, FramePair};
 use crate::capture::proximity::part_pair::{Instant, PartPair, SHORTEST};
 use crate::capture::proximity::workspace::PathWorkspace;
@@ -12,9 +13,11 @@ use std::convert::Infallible;
 /// A lower least distance than the one found may be missed by this, m; shallower overlaps are none.
 const RESOLUTION: f64 = 1e-6;
 
-/// Parts that separate by less than this, m, may overlap on: to look for smaller gaps in an overlap would cost more than
-/// the rest.
+/// Parts that separate by less than this, m, or by less than the smaller one is long, may overlap on: to look for smaller gaps in
+/// an overlap would cost more than the rest.
 const GAP: f64 = 1e-2;
+/// Smaller gaps are not looked for between parts that are smaller, m.
+const SMALLEST_GAP: f64 = 1e-4;
 
 /// Time for which the most distances are meant, s; longer cases may have more in proportion.
 const BUDGETED: f64 = 100.0;
@@ -118,6 +121,8 @@ impl WindowSearch<'_> {
         let before = part.last.filter(|instant| instant.time.to_bits() == first.to_bits());
         let mut left = before.map_or_else(|| self.record_at(first, known, found), Ok)?;
         let end = self.record_at(last, known, found)?;
+        let sizes = self.shapes.parts.map(ConvexPart::size);
+        let gap = sizes[0].min(sizes[1]).clamp(SMALLEST_GAP, GAP);
         let [mut instants, mut rights] = std::mem::take(self.instants);
         instants.clear();
         instants.push(left);
@@ -125,7 +130,7 @@ impl WindowSearch<'_> {
         while let Some(right) = rights.last() {
             let half = 0.5 * (right.time - left.time);
             let is_known = if left.distance.min(right.distance) < -RESOLUTION {
-                0.5 * (left.distance + right.distance) + self.shapes.speed * half <= GAP
+                0.5 * (left.distance + right.distance) + self.shapes.speed * half <= gap
             } else {
                 self.shapes.is_above(&left, right, found.goal(pair))
             };
@@ -162,13 +167,15 @@ impl WindowSearch<'_> {
             match part.open {
                 None if now.distance < -RESOLUTION => {
                     begins = before;
+                    let touch = self.touch([&instants[before], now], known, found)?;
+                    let span = [touch, now.time].map(|time| self.start + time);
                     part.open = Some(found.overlaps.len());
-                    let span = [self.touch(&instants[before], now), now.time].map(|time| self.start + time);
                     found.overlaps.push(PairOverlap { pair: part.pair, span, depth: -now.distance });
                 }
                 Some(open) if now.distance > 0.0 => {
                     self.deepen(open, known, found, &instants[begins..=i])?;
-                    found.overlaps[open].span[1] = self.start + self.crossing([now, &instants[before]]);
+                    let end = self.crossing([now, &instants[before]], known, found)?;
+                    found.overlaps[open].span[1] = self.start + end;
                     part.open = None;
                 }
                 _ => {}
@@ -225,9 +232,14 @@ impl WindowSearch<'_> {
 
     /// The time at which the parts touch before they overlap at an instant; nothing is known of the times before an
     /// earlier instant at which they do.
-    fn touch(&mut self, before: &Instant, now: &Instant) -> f64 {
+    fn touch(
+        &mut self,
+        [before, now]: [&Instant; 2],
+        pair: (usize, &BodyPair),
+        found: &mut Findings,
+    ) -> Result<f64, f64> {
         if before.distance > 0.0 {
-            return self.crossing([before, now]);
+            return self.crossing([before, now], pair, found);
         }
         let earliest = self.window.span()[0];
         let mut step = SHORTEST;
@@ -235,21 +247,61 @@ impl WindowSearch<'_> {
         loop {
             let early = self.at((now.time - step).max(earliest));
             if early.distance > 0.0 {
-                return self.crossing([&early, &late]);
+                return self.crossing([&early, &late], pair, found);
             }
             if early.time <= earliest {
-                return earliest;
+                return Ok(earliest);
             }
             (late, step) = (early, 2.0 * step);
         }
     }
 
-    /// A time at which the distance changes its sign: above 0 at the first instant, 0 or below at the second.
-    fn crossing(&mut self, [outside, inside]: [&Instant; 2]) -> f64 {
-        let ends = [outside, inside];
-        let distance = |time| Ok::<f64, Infallible>(self.at(time).distance);
-        let Ok(time) = root(ends.map(|at| at.time), ends.map(|at| at.distance), SHORTEST, distance);
-        time
+    /// The time nearest to an instant outside at which the parts begin to overlap, before or after one at which they do: in
+    /// between they may separate and overlap again.
+    fn crossing(
+        &mut self,
+        [outside, inside]: [&Instant; 2],
+        pair: (usize, &BodyPair),
+        found: &mut Findings,
+    ) -> Result<f64, f64> {
+        let mut inside = *inside;
+        loop {
+            let ends = [outside, &inside];
+            let distance = |time| Ok::<f64, Infallible>(self.at(time).distance);
+            let Ok(time) = root(ends.map(|at| at.time), ends.map(|at| at.distance), SHORTEST, distance);
+            match self.overlap_between(outside, time, pair, found)? {
+                Some(nearer) => inside = nearer,
+                None => return Ok(time),
+            }
+        }
+    }
+
+    /// An instant between one outside and a time at which the parts touch where they overlap.
+    fn overlap_between(
+        &mut self,
+        outside: &Instant,
+        touch: f64,
+        pair: (usize, &BodyPair),
+        found: &mut Findings,
+    ) -> Result<Option<Instant>, f64> {
+        let touching = self.at(touch);
+        let is_before = outside.time < touch;
+        let [mut left, right] = if is_before { [*outside, touching] } else { [touching, *outside] };
+        let mut rights = vec![right];
+        while let Some(right) = rights.last() {
+            let times = [left.time, right.time];
+            if self.shapes.is_above(&left, right, -RESOLUTION) || self.shapes.is_shortest(times) {
+                left = *right;
+                rights.pop();
+                continue;
+            }
+            let middle = self.record_at(f64::midpoint(times[0], times[1]), pair, found)?;
+            if middle.distance < -RESOLUTION {
+                return Ok(Some(middle));
+            }
+            rights.push(middle);
+        }
+        Ok(None)
     }
 }
 

@@ -56,6 +56,12 @@ impl ConvexPart {
         Self::new(vec![[0.0; 2]], 0.0)
     }
 
+    /// The largest distance of two of its points, m; of more than two corners at least half of it.
+    pub(in crate::capture) fn size(&self) -> f64 {
+        let from_first = self.corners.iter().map(|[x, y]| libm::hypot(x - self.corners[0][0], y - self.corners[0][1]));
+        from_first.fold(0.0, f64::max) + 2.0 * self.radius
+    }
+
     /// Parts whose union is the outline: a concave polygon as convex ones.
     pub(in crate::capture) fn of(outline: &Outline) -> Vec<Self> {
         match outline {
