@@ -3,8 +3,10 @@
 //! There are three stages: constants from the parameters, the configuration of a family, the call of a function. A
 //! stage reads what earlier ones assign. Sections are (name, index of the first statement).
 
-use serde::{Deserialize, Serialize};
+use serde::de::Visitor;
+use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::HashMap;
+use std::fmt;
 
 /// Number of operations of each kind.
 pub type Operations = HashMap<String, u64>;
@@ -158,11 +160,45 @@ pub enum Operation {
     Atan2,
 }
 
-#[derive(Clone, Debug, Deserialize)]
-#[serde(untagged)]
+#[derive(Clone, Debug)]
 pub enum Operand {
     Number(f64),
     Name(String),
+}
+
+/// Reads an operand at once: of the ten thousands of a graph, an untagged one would be tried as each of its kinds.
+impl<'de> Deserialize<'de> for Operand {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(OperandVisitor)
+    }
+}
+
+struct OperandVisitor;
+
+impl Visitor<'_> for OperandVisitor {
+    type Value = Operand;
+
+    fn expecting(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+        to.write_str("a number or the name of a variable")
+    }
+
+    fn visit_f64<E>(self, number: f64) -> Result<Operand, E> {
+        Ok(Operand::Number(number))
+    }
+
+    #[allow(clippy::cast_precision_loss, reason = "as a number with a point is read")]
+    fn visit_u64<E>(self, number: u64) -> Result<Operand, E> {
+        Ok(Operand::Number(number as f64))
+    }
+
+    #[allow(clippy::cast_precision_loss, reason = "as a number with a point is read")]
+    fn visit_i64<E>(self, number: i64) -> Result<Operand, E> {
+        Ok(Operand::Number(number as f64))
+    }
+
+    fn visit_str<E>(self, name: &str) -> Result<Operand, E> {
+        Ok(Operand::Name(name.to_owned()))
+    }
 }
 
 /// One state with every result of every function there, in the graph's order; lists are row-major.

@@ -40,9 +40,12 @@ pub use keys::FORMAT;
 const LONG: f64 = 20.0;
 
 /// Rust's keywords, strict and reserved, up to edition 2024.
-const KEYWORDS: &str = "abstract as async await become box break const continue crate do dyn else enum extern \
-    false final fn for gen if impl in let loop macro match mod move mut override priv pub ref return self static \
-    struct super trait true try type typeof unsafe unsized use virtual where while yield";
+const KEYWORDS: &[&str] = &[
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn", "else",
+    "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop", "macro", "match", "mod",
+    "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static", "struct", "super", "trait", "true",
+    "try", "type", "typeof", "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
+];
 
 /// A free-floating robot: a base and the arms mounted on it. All joints are revolute.
 #[derive(Clone, Debug, PartialEq)]
@@ -449,7 +452,7 @@ fn has_module_letters(name: &str) -> bool {
 }
 
 fn is_keyword(name: &str) -> bool {
-    KEYWORDS.split_whitespace().any(|keyword| keyword == name)
+    KEYWORDS.contains(&name)
 }
 
 #[cfg(test)]
