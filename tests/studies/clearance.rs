@@ -134,13 +134,14 @@ fn overlaps_begin_at_the_first_of_many_touches() {
         + &target("wall", "arm2", &wall, 0.0, [0.0; 3]);
     // how deep a corner is in the face of the wall
     let depth = |time: f64| {
-        let (sin, cos) = (spin * time).sin_cos();
-        let farthest = corners.iter().map(|[x, y]| cos * x - sin * y).fold(0.0, f64::max);
+        let (sine, cosine) = (spin * time).sin_cos();
+        let farthest = corners.iter().map(|[x, y]| cosine * x - sine * y).fold(0.0, f64::max);
         farthest + speed * time - start
     };
     let times = || (0..10_000_000).map(|i| 0.45 + 1e-8 * f64::from(i));
     let first = times().find(|time| depth(*time) > 1e-6).expect("a touch");
-    let touch = first - (0..).map(|i| 1e-8 * f64::from(i)).find(|back| depth(first - back) <= 0.0).expect("a start");
+    let touch =
+        first - (0..1_000_000).map(|i| 1e-8 * f64::from(i)).find(|back| depth(first - back) <= 0.0).expect("a start");
     for rule in ["report", "stop"] {
         let text = format!("{text}[clearance]\non_overlap = \"{rule}\"");
         let result = run_sampled(&at_rest("dual_arm_3r", TWO_ARMS, 0.1, &text), 5.0);
