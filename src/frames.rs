@@ -131,3 +131,9 @@ pub fn point([yaw, x, y]: [f64; 3], [along, across]: [f64; 2]) -> [f64; 2] {
     let (sin, cos) = Scalar::sin_cos(yaw);
     [x + cos * along - sin * across, y + sin * along + cos * across]
 }
+
+/// A vector rotated by an angle of this sine and cosine.
+#[inline]
+pub(crate) fn turned([x, y]: [f64; 2], (sin, cos): (f64, f64)) -> [f64; 2] {
+    [cos * x - sin * y, sin * x + cos * y]
+}

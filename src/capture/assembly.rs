@@ -23,6 +23,7 @@
 
 use crate::contact::{Contact, ContactKind, ContactLaw, ContactPartner, LoopConstraint};
 use crate::error::Error;
+use crate::frames::turned;
 use crate::owned::{CloneModel, RobotState};
 use crate::simulate::system::{Body, System};
 use crate::target::Target;
@@ -181,9 +182,4 @@ impl Assembly {
 /// A vector rotated by an angle, rad.
 pub(crate) fn rotated(vector: [f64; 2], angle: f64) -> [f64; 2] {
     turned(vector, libm::sincos(angle))
-}
-
-/// A vector rotated by an angle of this sine and cosine.
-pub(crate) fn turned([x, y]: [f64; 2], (sin, cos): (f64, f64)) -> [f64; 2] {
-    [cos * x - sin * y, sin * x + cos * y]
 }

@@ -65,8 +65,9 @@ pub struct Adaptive {
     rate: Blocks,
     /// ẋ at the stages of the last step, one after the other.
     stages: Blocks,
-    /// The coefficients of the interpolant over the last step, one after the other, if it is found yet.
+    /// The coefficients of the interpolant over the last step, one after the other.
     interpolant: Blocks,
+    /// Whether they are found.
     is_dense: bool,
     /// The next step, s.
     step: f64,

@@ -134,12 +134,12 @@ impl Pair {
 
 /// Of polynomials of s, one per stage without a constant, those over s by Chebyshev's polynomials: the factors of each.
 fn by_chebyshev<const STAGES: usize>(of_stage: impl Fn(usize) -> [f64; DEGREE]) -> [Row; DEGREE] {
-    let polynomials: [[f64; DEGREE]; STAGES] = std::array::from_fn(|stage| chebyshev(of_stage(stage)));
+    let polynomials: [[f64; DEGREE]; STAGES] = std::array::from_fn(|stage| in_chebyshev(of_stage(stage)));
     std::array::from_fn(|degree| row(polynomials.iter().map(|factors| factors[degree])))
 }
 
 /// From the factors of 1, s, s² … those of Chebyshev's polynomials of 2 s - 1.
-fn chebyshev(factors: [f64; DEGREE]) -> [f64; DEGREE] {
+fn in_chebyshev(factors: [f64; DEGREE]) -> [f64; DEGREE] {
     let mut sum = [0.0; DEGREE];
     for factor in factors.into_iter().rev() {
         // 4 s Tₖ = Tₖ₋₁ + 2 Tₖ + Tₖ₊₁, where T₋₁ is T₁

@@ -3,11 +3,11 @@
 
 use crate::dynamics::AnyModel;
 use crate::error::Error;
-use crate::formulation::CanonicalVariables;
-use crate::frames::point;
+use crate::frames::{point, turned};
 use crate::scalar::Scalar;
 use crate::scalar::lane::Lane;
 use crate::simulate::bodies::BodySums;
+use crate::simulate::equation::CanonicalStorage;
 use crate::simulate::system::Body;
 use multiversion::multiversion;
 
@@ -69,6 +69,8 @@ struct Motion {
 /// Sums over the bodies.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LaneSums {
+    /// kg.
+    mass: f64,
     first_moment: [Lanes; 2],
     momentum: [Lanes; 3],
     kinetic_energy: Lanes,
@@ -81,18 +83,9 @@ impl BodyTree {
     /// Of a robot whose joints are measured in one pose, and of bodies beside it.
     pub(crate) fn new(model: &AnyModel<f64>, beside: &[Body]) -> Result<Self, Error> {
         let joints = model.joints();
-        let (mut inertias, mut offsets) = (vec![[0.0; 2]; joints + 1], vec![[0.0; 2]; joints]);
-        let (mut poses, mut twists) = (vec![[0.0; 3]; joints + 1], vec![[0.0; 3]; joints + 1]);
-        let mut leaves = vec![false; joints];
-        let mut of_robot = CanonicalVariables {
-            inertias: &mut inertias,
-            poses: &mut poses,
-            twists: &mut twists,
-            offsets: &mut offsets,
-            leaves: &mut leaves,
-            rates: &mut vec![0.0; joints],
-        };
-        of_robot.measure(model, &[0.0; 3], &vec![0.0; joints])?;
+        let at_zero = vec![0.0; joints];
+        let CanonicalStorage { inertias, poses, offsets, leaves, .. } =
+            CanonicalStorage::new(model, &[0.0; 3], &at_zero)?;
         let mut by = 0;
         let links = offsets.into_iter().zip(leaves).enumerate().map(|(joint, (com, is_last))| {
             let (carrier, link) = (poses[by], poses[joint + 1]);
@@ -115,32 +108,25 @@ impl BodyTree {
         self.nodes.iter().map(|node| if matches!(node.place, Place::Free(_)) { 3 } else { 1 }).sum()
     }
 
-    /// kg.
-    pub(crate) fn mass(&self) -> f64 {
-        self.nodes.iter().map(|node| node.mass).sum()
-    }
-
     /// The sums where positions and rates of the coordinates are these: base, joints, bodies beside the robot.
     pub(crate) fn sums(&mut self, positions: &[Lanes], rates: &[Lanes]) -> LaneSums {
-        let mut sums = LaneSums::default();
-        sweep::<false>(&self.nodes, positions, rates, &mut self.motions, &mut sums);
+        let mut sums = sweep::<false>(&self.nodes, positions, rates, &mut self.motions);
         if sums.kinetic_energy.iter().any(|energy| energy.is_nan()) {
             // angles far from 0
-            sums = LaneSums::default();
-            sweep::<true>(&self.nodes, positions, rates, &mut self.motions, &mut sums);
+            sums = sweep::<true>(&self.nodes, positions, rates, &mut self.motions);
         }
-        widen(&self.motions, self.mass(), &mut sums);
+        sums.extent = extent(&self.motions, &sums);
         sums
     }
 }
 
 impl LaneSums {
-    /// Those of one instant, for bodies of this mass, kg.
+    /// Those of one instant.
     #[inline]
-    pub(crate) fn at(&self, mass: f64, lane: usize) -> BodySums {
+    pub(crate) fn at(&self, lane: usize) -> BodySums {
         let Self { first_moment: [mx, my], momentum: [l, px, py], momentum_sizes: [angular, linear], .. } = self;
         BodySums {
-            mass,
+            mass: self.mass,
             first_moment: [mx[lane], my[lane]],
             momentum: [l[lane], px[lane], py[lane]],
             kinetic_energy: self.kinetic_energy[lane],
@@ -148,6 +134,7 @@ impl LaneSums {
         }
     }
 
+    /// Sets those of one instant but for the mass, which is that of all.
     #[inline]
     fn set(&mut self, lane: usize, sums: &BodySums) {
         let Self { first_moment: [mx, my], momentum: [l, px, py], momentum_sizes: [angular, linear], .. } = self;
@@ -160,14 +147,8 @@ impl LaneSums {
 
 /// The motions of all bodies, and the sums over them; `FAR` says whether angles may be far from 0.
 #[multiversion(targets("x86_64+avx2"))]
-fn sweep<const FAR: bool>(
-    nodes: &[Node],
-    positions: &[Lanes],
-    rates: &[Lanes],
-    motions: &mut [Motion],
-    sums: &mut LaneSums,
-) {
-    // in variables of this function, which the compiler knows apart
+fn sweep<const FAR: bool>(nodes: &[Node], positions: &[Lanes], rates: &[Lanes], motions: &mut [Motion]) -> LaneSums {
+    // what is written is in variables of this function, which the compiler knows apart
     let mut all = LaneSums::default();
     for (i, node) in nodes.iter().enumerate() {
         let (mut own, mass, inertia) = (Motion::default(), node.mass, node.inertia);
@@ -184,8 +165,8 @@ fn sweep<const FAR: bool>(
                 for l in 0..LANES {
                     let (yaw, omega) = (carrier.yaw[l] + angle + angles[l], carrier.omega[l] + turns[l]);
                     let (sin, cos) = sin_cos::<FAR>(yaw);
-                    let [ax, ay] = rotated(at, (carrier.sin[l], carrier.cos[l]));
-                    let [cx, cy] = rotated(com, (sin, cos));
+                    let [ax, ay] = turned(at, (carrier.sin[l], carrier.cos[l]));
+                    let [cx, cy] = turned(com, (sin, cos));
                     (own.yaw[l], own.omega[l], own.sin[l], own.cos[l]) = (yaw, omega, sin, cos);
                     (own.x[l], own.y[l]) = (carrier.x[l] + ax + cx, carrier.y[l] + ay + cy);
                     own.vx[l] = carrier.vx[l] - carrier.omega[l] * ay - omega * cy;
@@ -195,17 +176,18 @@ fn sweep<const FAR: bool>(
         }
         for l in 0..LANES {
             let (pose, twist) = ([own.yaw[l], own.x[l], own.y[l]], [own.omega[l], own.vx[l], own.vy[l]]);
-            all.set(l, &all.at(0.0, l).with(&Body { mass, inertia, pose, twist }));
+            all.set(l, &all.at(l).with(&Body { mass, inertia, pose, twist }));
         }
+        all.mass += mass;
         motions[i] = own;
     }
-    *sums = all;
+    all
 }
 
-/// The extent of the bodies.
+/// The largest distance of a body's COM from that of all, m.
 #[multiversion(targets("x86_64+avx2"))]
-fn widen(motions: &[Motion], mass: f64, sums: &mut LaneSums) {
-    let (center, mut most) = (sums.first_moment.map(|moment| moment.map(|moment| moment / mass)), [0.0; LANES]);
+fn extent(motions: &[Motion], sums: &LaneSums) -> Lanes {
+    let (center, mut most) = (sums.first_moment.map(|moment| moment.map(|moment| moment / sums.mass)), [0.0; LANES]);
     for Motion { x, y, .. } in motions {
         for l in 0..LANES {
             let [dx, dy] = [x[l] - center[0][l], y[l] - center[1][l]];
@@ -213,12 +195,7 @@ fn widen(motions: &[Motion], mass: f64, sums: &mut LaneSums) {
             most[l] = if square > most[l] { square } else { most[l] };
         }
     }
-    sums.extent = most.map(f64::sqrt);
-}
-
-#[inline]
-fn rotated([x, y]: [f64; 2], (sin, cos): (f64, f64)) -> [f64; 2] {
-    [cos * x - sin * y, sin * x + cos * y]
+    most.map(f64::sqrt)
 }
 
 /// NaN for angles that are far from 0 where they are not to be.

@@ -156,7 +156,7 @@ impl<'a> ConservationAudit<'a> {
         let inputs = [AccumulatedInput::default(); LANES];
         let mut pending = Pending { count: 0, positions: rows.clone(), rates: rows, inputs };
         pending.push_parts(state, beside, &AccumulatedInput::default())?;
-        let start = tree.sums(&pending.positions, &pending.rates).at(tree.mass(), 0);
+        let start = tree.sums(&pending.positions, &pending.rates).at(0);
         let none = Ratio::default();
         Ok(Self { model, bodies, tree, start, pending, linear: none, angular: none, energy: none, motion: none })
     }
@@ -190,7 +190,7 @@ impl<'a> ConservationAudit<'a> {
         let (before, center, mass) = (start.momentum(), start.center_of_mass(), start.mass);
         let velocity = before.linear_momentum.map(|momentum| momentum / mass);
         for (lane, input) in pending.inputs.iter().take(count).enumerate() {
-            let sum = sums.at(mass, lane);
+            let sum = sums.at(lane);
             let (now, [of_angular, of_linear]) = (sum.momentum(), sum.momentum_sizes);
             let [x, y] = sum.center_of_mass();
             let numbers = [now.kinetic_energy, of_angular, of_linear, x, y];

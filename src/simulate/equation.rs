@@ -1,6 +1,7 @@
 //! The differential equation of a phase, in full or reduced coordinates or in canonical variables.
 
 use crate::control::Control;
+use crate::dynamics::AnyModel;
 use crate::error::Error;
 use crate::formulation::{CanonicalVariables, ReducedCoordinates};
 use crate::simulate::inertial_frame::InertialFrame;
@@ -50,16 +51,31 @@ impl ReducedSpace {
 }
 
 /// What [`CanonicalVariables`] borrows.
-struct CanonicalStorage {
-    inertias: Vec<[f64; 2]>,
-    poses: Vec<[f64; 3]>,
+pub(crate) struct CanonicalStorage {
+    pub(crate) inertias: Vec<[f64; 2]>,
+    pub(crate) poses: Vec<[f64; 3]>,
     twists: Vec<[f64; 3]>,
-    offsets: Vec<[f64; 2]>,
-    leaves: Vec<bool>,
+    pub(crate) offsets: Vec<[f64; 2]>,
+    pub(crate) leaves: Vec<bool>,
     rates: Vec<f64>,
 }
 
 impl CanonicalStorage {
+    /// Of a robot, measured in a configuration.
+    pub(crate) fn new(model: &AnyModel<f64>, base_pose: &[f64; 3], joint_angles: &[f64]) -> Result<Self, Error> {
+        let joints = model.joints();
+        let mut storage = Self {
+            inertias: vec![[0.0; 2]; joints + 1],
+            poses: vec![[0.0; 3]; joints + 1],
+            twists: vec![[0.0; 3]; joints + 1],
+            offsets: vec![[0.0; 2]; joints],
+            leaves: vec![false; joints],
+            rates: vec![0.0; joints],
+        };
+        storage.borrow().measure(model, base_pose, joint_angles)?;
+        Ok(storage)
+    }
+
     fn borrow(&mut self) -> CanonicalVariables<'_, f64> {
         CanonicalVariables {
             inertias: &mut self.inertias,
@@ -111,16 +127,8 @@ impl FormulationWorkspace {
     pub(crate) fn canonical(system: &System<'_>, x: &[f64]) -> Result<Self, Error> {
         let joints = system.model.joints();
         let size = 3 + joints;
-        let mut variables = CanonicalStorage {
-            inertias: vec![[0.0; 2]; joints + 1],
-            poses: vec![[0.0; 3]; joints + 1],
-            twists: vec![[0.0; 3]; joints + 1],
-            offsets: vec![[0.0; 2]; joints],
-            leaves: vec![false; joints],
-            rates: vec![0.0; joints],
-        };
         let at = State::from_vector(x, joints)?;
-        variables.borrow().measure(system.model, &at.base_pose, at.joint_angles)?;
+        let variables = CanonicalStorage::new(system.model, &at.base_pose, at.joint_angles)?;
         Ok(Self::Canonical(CanonicalSpace {
             variables,
             x: x.to_vec(),

@@ -323,10 +323,10 @@ fn sums_of_several_instants() {
         let row = |half: usize, i: usize| std::array::from_fn(|lane| numbers(lane)[half][i]);
         let [positions, rates]: [Vec<_>; 2] = [0, 1].map(|half| (0..12).map(|i| row(half, i)).collect());
         let mut tree = BodyTree::new(&*model, &[beside(0.0)]).expect("a robot");
-        let (sums, mass) = (tree.sums(&positions, &rates), tree.mass());
+        let sums = tree.sums(&positions, &rates);
         for (lane, state) in states.iter().enumerate() {
             let all = bodies(&*model, &state.view(), &[beside(lane as f64)]).expect("bodies");
-            let (one, found) = (BodySums::new(all.iter().copied()), sums.at(mass, lane));
+            let (one, found) = (BodySums::new(all.iter().copied()), sums.at(lane));
             let numbers = |sums: &BodySums| {
                 let Momentum { linear_momentum: [px, py], angular_momentum, kinetic_energy } = sums.momentum();
                 let ([x, y], [angular, linear]) = (sums.center_of_mass(), sums.momentum_sizes);

@@ -2,7 +2,6 @@
 //! bound.
 
 use super::bodies::BodyPair;
-use crate::capture::proximity::convex::ConvexPart;
 use crate::capture::proximity::motion::{FrameKinematics, FramePair};
 use crate::capture::proximity::part_pair::{Instant, PartPair, SHORTEST};
 use crate::capture::proximity::workspace::PathWorkspace;
@@ -121,8 +120,8 @@ impl WindowSearch<'_> {
         let before = part.last.filter(|instant| instant.time.to_bits() == first.to_bits());
         let mut left = before.map_or_else(|| self.record_at(first, known, found), Ok)?;
         let end = self.record_at(last, known, found)?;
-        let sizes = self.shapes.parts.map(ConvexPart::size);
-        let gap = sizes[0].min(sizes[1]).clamp(SMALLEST_GAP, GAP);
+        let [first, second] = self.shapes.parts;
+        let gap = first.size.min(second.size).clamp(SMALLEST_GAP, GAP);
         let [mut instants, mut rights] = std::mem::take(self.instants);
         instants.clear();
         instants.push(left);
@@ -198,26 +197,42 @@ impl WindowSearch<'_> {
     ) -> Result<(), f64> {
         let least = |depth: f64, instant: &Instant| depth.max(-instant.distance);
         let mut depth = instants.iter().fold(found.overlaps[overlap].depth, least);
-        let mut rights = Vec::new();
         for ends in instants.windows(2) {
-            let mut left = ends[0];
-            rights.push(ends[1]);
-            while let Some(right) = rights.last() {
-                let half = 0.5 * (right.time - left.time);
-                if self.shapes.is_above(&left, right, -depth - RESOLUTION)
-                    || self.shapes.is_shortest([left.time, right.time])
-                {
-                    left = *right;
-                    rights.pop();
-                } else {
-                    let middle = self.record_at(left.time + half, pair, found)?;
-                    depth = least(depth, &middle);
-                    rights.push(middle);
-                }
-            }
+            self.divide([ends[0], ends[1]], -depth - RESOLUTION, pair, found, |middle| {
+                depth = least(depth, middle);
+                Some(-depth - RESOLUTION)
+            })?;
         }
         found.overlaps[overlap].depth = depth;
         Ok(())
+    }
+
+    /// Looks at instants between two, in their order, wherever the distance may be below a level; `visit` returns the next
+    /// level after each, or `None` to end.
+    fn divide(
+        &mut self,
+        [mut left, mut right]: [Instant; 2],
+        mut level: f64,
+        pair: (usize, &BodyPair),
+        found: &mut Findings,
+        mut visit: impl FnMut(&Instant) -> Option<f64>,
+    ) -> Result<(), f64> {
+        // beyond the right one, the nearest last
+        let mut rights = Vec::new();
+        loop {
+            let half = 0.5 * (right.time - left.time);
+            if !self.shapes.is_above(&left, &right, level) && !self.shapes.is_shortest([left.time, right.time]) {
+                let middle = self.record_at(left.time + half, pair, found)?;
+                let Some(next) = visit(&middle) else { return Ok(()) };
+                level = next;
+                rights.push(right);
+                right = middle;
+            } else {
+                left = right;
+                let Some(next) = rights.pop() else { return Ok(()) };
+                right = next;
+            }
+        }
     }
 
     fn record_at(&mut self, time: f64, pair: (usize, &BodyPair), found: &mut Findings) -> Result<Instant, f64> {
@@ -269,39 +284,18 @@ impl WindowSearch<'_> {
             let ends = [outside, &inside];
             let distance = |time| Ok::<f64, Infallible>(self.at(time).distance);
             let Ok(time) = root(ends.map(|at| at.time), ends.map(|at| at.distance), SHORTEST, distance);
-            match self.overlap_between(outside, time, pair, found)? {
+            let touch = self.at(time);
+            let between = if outside.time < time { [*outside, touch] } else { [touch, *outside] };
+            let mut nearer = None;
+            self.divide(between, -RESOLUTION, pair, found, |middle| {
+                nearer = (middle.distance < -RESOLUTION).then_some(*middle);
+                nearer.is_none().then_some(-RESOLUTION)
+            })?;
+            match nearer {
                 Some(nearer) => inside = nearer,
                 None => return Ok(time),
             }
         }
-    }
-
-    /// An instant between one outside and a time at which the parts touch where they overlap.
-    fn overlap_between(
-        &mut self,
-        outside: &Instant,
-        touch: f64,
-        pair: (usize, &BodyPair),
-        found: &mut Findings,
-    ) -> Result<Option<Instant>, f64> {
-        let touching = self.at(touch);
-        let is_before = outside.time < touch;
-        let [mut left, right] = if is_before { [*outside, touching] } else { [touching, *outside] };
-        let mut rights = vec![right];
-        while let Some(right) = rights.last() {
-            let times = [left.time, right.time];
-            if self.shapes.is_above(&left, right, -RESOLUTION) || self.shapes.is_shortest(times) {
-                left = *right;
-                rights.pop();
-                continue;
-            }
-            let middle = self.record_at(f64::midpoint(times[0], times[1]), pair, found)?;
-            if middle.distance < -RESOLUTION {
-                return Ok(Some(middle));
-            }
-            rights.push(middle);
-        }
-        Ok(None)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Convex parts of outlines, and the signed distance of two of them.
 
-use crate::capture::assembly::turned;
+use crate::frames::turned;
 use crate::outline::{Outline, edges, farthest};
 use earcut::Earcut;
 use multiversion::multiversion;
@@ -14,6 +14,8 @@ pub(in crate::capture) struct ConvexPart {
     pub(in crate::capture) radius: f64,
     /// The largest distance of a corner from the origin of the frame, m.
     pub(in crate::capture) reach: f64,
+    /// The largest distance of two of its points, m; of more than two corners at least half of it.
+    pub(in crate::capture) size: f64,
     axes: Vec<Axis>,
 }
 
@@ -56,12 +58,6 @@ impl ConvexPart {
         Self::new(vec![[0.0; 2]], 0.0)
     }
 
-    /// The largest distance of two of its points, m; of more than two corners at least half of it.
-    pub(in crate::capture) fn size(&self) -> f64 {
-        let from_first = self.corners.iter().map(|[x, y]| libm::hypot(x - self.corners[0][0], y - self.corners[0][1]));
-        from_first.fold(0.0, f64::max) + 2.0 * self.radius
-    }
-
     /// Parts whose union is the outline: a concave polygon as convex ones.
     pub(in crate::capture) fn of(outline: &Outline) -> Vec<Self> {
         match outline {
@@ -79,7 +75,9 @@ impl ConvexPart {
 
     fn new(corners: Vec<[f64; 2]>, radius: f64) -> Self {
         let (reach, axes) = (farthest(&corners), axes(&corners));
-        Self { corners, radius, reach, axes }
+        let from_first = corners.iter().map(|[x, y]| libm::hypot(x - corners[0][0], y - corners[0][1]));
+        let size = from_first.fold(0.0, f64::max) + 2.0 * radius;
+        Self { corners, radius, reach, size, axes }
     }
 }
 

@@ -1,8 +1,8 @@
 //! Poses, twists and bounds of the motion of all frames over an interval of a path.
 
-use crate::capture::assembly::{TargetPlacement, turned};
+use crate::capture::assembly::TargetPlacement;
 use crate::capture::target_motion::TargetMotion;
-use crate::frames::{Frame, FrameMotion};
+use crate::frames::{Frame, FrameMotion, turned};
 use crate::scalar::Scalar;
 use crate::simulate::path::PathPart;
 use crate::simulate::system::Body;

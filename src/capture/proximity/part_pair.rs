@@ -2,8 +2,8 @@
 
 use super::convex::{ConvexPart, PlacedPart, Separation, separation};
 use super::motion::FrameState;
-use crate::capture::assembly::turned;
 use crate::error::Error;
+use crate::frames::turned;
 
 /// Longest interval that need not be divided, s.
 pub(in crate::capture) const SHORTEST: f64 = 1e-9;
