@@ -12,6 +12,10 @@ use std::convert::Infallible;
 /// A lower least distance than the one found may be missed by this, m; shallower overlaps are none.
 const RESOLUTION: f64 = 1e-6;
 
+/// Distances that differ by less are equal, m: the time of the least is the first of them. Bodies that rest relative to each other
+/// are at distances that differ by rounding.
+const EQUAL: f64 = 1e-9;
+
 /// Parts that separate by less than this, m, or by less than the smaller one is long, may overlap on: to look for smaller gaps in
 /// an overlap would cost more than the rest.
 const GAP: f64 = 1e-2;
@@ -88,7 +92,7 @@ impl Findings {
         let (index, BodyPair { group, .. }) = pair;
         self.of_pairs[index] += 1;
         let least = &mut self.least[*group];
-        if least.is_none_or(|(least, ..)| instant.distance < least) {
+        if least.is_none_or(|(least, ..)| instant.distance < least - EQUAL) {
             *least = Some((instant.distance, start + instant.time, index));
         }
     }
