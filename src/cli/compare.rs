@@ -6,7 +6,7 @@ use crate::compare::{Comparison, LargestError, Refusal, compare};
 use crate::engine::{Choice, Engine};
 use crate::eval::to_json;
 use crate::layout::Layout;
-use crate::output::result_folder::ResultFolder;
+use crate::output::result_folder::{ResultFolder, outside_of_runs};
 use crate::plain_text::Column::{Left, Right};
 use crate::plain_text::{Table, sentence};
 use crate::quantity::Quantity;
@@ -54,6 +54,7 @@ pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, Comman
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results/compare").join(&layout.name));
     let keep: &[&Path] = if Layout::is_path(&arguments.layout) { &[Path::new(&arguments.layout)] } else { &[] };
     let objection = |folder: &Path, names: &[String]| objection(folder, names, &layout);
+    outside_of_runs(&folder, None)?;
     let folder = ResultFolder::claim(&folder, arguments.force, keep, &objection)?;
     let choice = choose(&layout, arguments, robots)?;
     let comparison = compare(&layout, &choice, arguments.samples, arguments.seed);

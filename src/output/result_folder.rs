@@ -22,7 +22,7 @@
 use super::atomic_file::{create_folder, lock_folder, write_whole};
 use super::output_error::OutputError;
 use super::replacement::{NEW, is_settled, replace};
-use super::run_folder::FIGURES;
+use super::run_folder::{FIGURES, scenario_in};
 use super::sweep::sweep;
 use super::temporary::{self, TemporaryFolder, names};
 use std::ffi::OsString;
@@ -57,6 +57,19 @@ pub enum ClaimError {
         path: PathBuf,
         /// What is in it, as a predicate.
         found: String,
+    },
+    /// It is inside the folder of a run, which could not be replaced any more.
+    #[error(
+        "{path} is inside {outer}, which holds the results of `{scenario}`, and a folder holds one run: choose another folder",
+        path = path.display(), outer = outer.display()
+    )]
+    Inside {
+        /// The folder.
+        path: PathBuf,
+        /// That of the run.
+        outer: PathBuf,
+        /// Whose results are in it.
+        scenario: String,
     },
     /// It has what `--force` is not to delete.
     #[error("{}: choose another folder", protection(path, kept))]
@@ -255,6 +268,22 @@ impl StagedFolder {
 pub fn existing_folder(path: &Path) -> Result<&Path, ClaimError> {
     let existing = existing(path);
     if existing.is_dir() { Ok(existing) } else { Err(ClaimError::NotAFolder(existing.to_owned())) }
+}
+
+/// Refuses a path inside the folder of a run, other than `replaced`, which could not be replaced any more.
+///
+/// # Errors
+/// [`ClaimError::Inside`].
+pub fn outside_of_runs(path: &Path, replaced: Option<&Path>) -> Result<(), ClaimError> {
+    let existing = existing(path);
+    let canonical = |path: &Path| path.canonicalize().ok();
+    let (above, replaced) = (canonical(existing), replaced.and_then(canonical));
+    let around = above.iter().flat_map(|above| above.ancestors()).skip(usize::from(existing == path));
+    let mut runs = around.filter(|folder| Some(*folder) != replaced.as_deref()).filter_map(|folder| {
+        let scenario = scenario_in(folder)?;
+        Some(ClaimError::Inside { path: path.to_owned(), outer: folder.to_owned(), scenario })
+    });
+    runs.next().map_or(Ok(()), Err)
 }
 
 /// The path, or its nearest ancestor that exists.

@@ -103,6 +103,32 @@ fn a_folder_of_several_runs_is_not_one_for_a_run() {
     assert_eq!(run(&one, &results.join("new"), &[]), (0, String::new()));
 }
 
+/// A run inside another's folder would keep that from being replaced.
+#[test]
+fn the_folder_of_a_run_has_no_other_in_it() {
+    let folder = TempDir::new().expect("a folder");
+    let outer = folder.path().join("outer");
+    let one = scenario("one", &["a"], folder.path());
+    assert_eq!(run(&one, &outer, &[]), (0, String::new()));
+    let refused = |(code, err): (i32, String)| {
+        assert!(code == 2 && err.contains("outer, which holds the results of `one`"), "{err}");
+    };
+    for (inner, more) in [("inner", [].as_slice()), ("more/inner", &["--force"])] {
+        refused(run(&one, &outer.join(inner), more));
+    }
+    let inner = outer.join("inner").display().to_string();
+    let into = |command: &str, file: &str| {
+        let (code, _, err) = said(&[command, file, "--out", &inner]);
+        refused((code, err));
+    };
+    into("compare", "dual_arm_3r");
+    #[cfg(feature = "sweep")]
+    into("sweep", &file("scenarios/sweeps/uncertain_capture.toml").display().to_string());
+    assert_eq!(names(&outer), ["a.csv", "summary.json"]);
+    assert_eq!(run(&one, &outer.join("../beside"), &[]), (0, String::new()));
+    assert_eq!(run(&one, &outer, &[]), (0, String::new()));
+}
+
 /// Cases by their names: the results are theirs, with the numbers that they have among all cases.
 #[test]
 fn some_cases_can_be_computed_alone() {

@@ -11,7 +11,7 @@ use super::progress::Display;
 use super::seconds::positive_seconds;
 use super::terminal::note;
 use crate::engine::Choice;
-use crate::output::result_folder::{ClaimError, ResultFolder};
+use crate::output::result_folder::{ClaimError, ResultFolder, outside_of_runs};
 use crate::output::run_folder::{self, objection};
 use crate::program::Program;
 use crate::scenario::{Scenario, ScenarioSource};
@@ -157,12 +157,14 @@ fn run_by(arguments: &Arguments, program: Program<'_>, mut chosen: Option<Choice
     let above = codes.take(above(arguments)).flatten();
     let mut tasks = Vec::new();
     for (((path, (scenario, source)), folder), objection) in scenarios.iter().zip(&folders).zip(&objections) {
-        let folder = ResultFolder::claim(folder, arguments.force, &keep, objection).map_err(CommandError::from);
+        let claimed = outside_of_runs(folder, above)
+            .and_then(|()| ResultFolder::claim(folder, arguments.force, &keep, objection))
+            .map_err(CommandError::from);
         let file = &source.scenario.file;
         let choose = |scenario: &Scenario| arguments.dynamics.choose(&scenario.layout, file, program.robots);
         let choice = chosen.take().map_or_else(|| choose(scenario), Ok);
         let own = scenario.variants.iter().map(|variant| choose(&variant.scenario)).collect::<Result<_, _>>();
-        if let (Some(folder), Some(choice), Some(own)) = (codes.take(folder), codes.take(choice), codes.take(own)) {
+        if let (Some(folder), Some(choice), Some(own)) = (codes.take(claimed), codes.take(choice), codes.take(own)) {
             let named = if arguments.scenarios.len() > 1 { format!("{}: ", scenario.name) } else { String::new() };
             tasks.push(Task { path, scenario, source, folder, choice, own, laws: program.laws, named });
         }

@@ -17,7 +17,7 @@ use crate::diagnostic::nearest;
 use crate::engine::Choice;
 use crate::output::atomic_file::create_folder;
 use crate::output::figure_kinds::begins_with;
-use crate::output::result_folder::existing_folder;
+use crate::output::result_folder::{existing_folder, outside_of_runs};
 use crate::program::Program;
 use crate::registry::Robots;
 use progress::Progress;
@@ -93,6 +93,7 @@ pub fn run(arguments: &Arguments, program: Program<'_>) -> Result<ExitCode, Comm
     check_figures(&campaign, &arguments.figures)?;
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(&campaign.sweep.name));
     existing_folder(&folder)?;
+    outside_of_runs(&folder, None)?;
     if let Some(case) = arguments.replay {
         return replay::replay(&campaign, case, &folder, arguments, program);
     }
