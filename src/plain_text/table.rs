@@ -44,9 +44,11 @@ impl Column {
     }
 
     fn cell(self, text: &str, width: usize) -> String {
+        // a width of `format!` has 16 bits: a name may be longer
+        let rest = " ".repeat(width.saturating_sub(text.chars().count()));
         match self {
-            Self::Left(_) => format!("{text:<width$}"),
-            Self::Right(_) => format!("{text:>width$}"),
+            Self::Left(_) => format!("{text}{rest}"),
+            Self::Right(_) => format!("{rest}{text}"),
         }
     }
 }
@@ -145,5 +147,14 @@ mod tests {
         let name = "n".repeat(90);
         table.row(texts([&name, "1", "22"]));
         assert_eq!(table.text(), format!("  name\n    number  other\n  {name}\n         1     22\n"));
+    }
+
+    /// Beyond the widths that `format!` has.
+    #[test]
+    fn a_text_may_have_any_length() {
+        let mut table = Table::new(&COLUMNS);
+        let name = "n".repeat(1 << 17);
+        table.row(texts([&name, "1", "22"]));
+        assert!(table.text().contains(&name));
     }
 }

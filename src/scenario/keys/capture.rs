@@ -125,7 +125,7 @@ fn detections() -> Vec<Choice> {
 fn consequences() -> Vec<Choice> {
     let doc = |consequence: OnOverlap| match consequence {
         OnOverlap::Report => "it is in the results",
-        OnOverlap::Fail => "exit code 1",
+        OnOverlap::Fail => "exit code 1. Overlaps with a default outline are reported alone",
         OnOverlap::Stop => {
             "the case ends where the overlap begins, exit code 1. Overlaps with a default outline are reported alone"
         }
