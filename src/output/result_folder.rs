@@ -270,16 +270,16 @@ pub fn existing_folder(path: &Path) -> Result<&Path, ClaimError> {
     if existing.is_dir() { Ok(existing) } else { Err(ClaimError::NotAFolder(existing.to_owned())) }
 }
 
-/// Refuses a path inside the folder of a run, other than `replaced`, which could not be replaced any more.
+/// Refuses a path inside the folder of a run, which could not be replaced any more; of the folder `but` the caller decides.
 ///
 /// # Errors
 /// [`ClaimError::Inside`].
-pub fn outside_of_runs(path: &Path, replaced: Option<&Path>) -> Result<(), ClaimError> {
+pub fn outside_of_runs(path: &Path, but: Option<&Path>) -> Result<(), ClaimError> {
     let existing = existing(path);
     let canonical = |path: &Path| path.canonicalize().ok();
-    let (above, replaced) = (canonical(existing), replaced.and_then(canonical));
+    let (above, but) = (canonical(existing), but.and_then(canonical));
     let around = above.iter().flat_map(|above| above.ancestors()).skip(usize::from(existing == path));
-    let mut runs = around.filter(|folder| Some(*folder) != replaced.as_deref()).filter_map(|folder| {
+    let mut runs = around.filter(|folder| Some(*folder) != but.as_deref()).filter_map(|folder| {
         let scenario = scenario_in(folder)?;
         Some(ClaimError::Inside { path: path.to_owned(), outer: folder.to_owned(), scenario })
     });

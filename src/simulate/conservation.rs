@@ -42,8 +42,8 @@ pub const CENTER_OF_MASS_BOUND: f64 = 1e-9;
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ConservationErrors {
     /// Largest change of momentum, less the external impulse, over the largest Σ m|v|, or the same for the angular
-    /// momentum about the inertial origin over the largest Σ |Iω| + m|r × v|, or a ten-thousandth of Σ m|v| times the
-    /// extent where that is larger: the larger of the two; 0 where nothing moves.
+    /// momentum about the inertial origin over the largest Σ |Iω| + m|r × v|, or a ten-thousandth of the largest
+    /// Σ m|v| times the largest extent where that is larger: the larger of the two; 0 where nothing moves.
     pub momentum_drift: f64,
     /// Largest |E(t) − E(0) − work of joint torques and base torque| over the largest kinetic energy; 0 where nothing
     /// moves.
@@ -205,12 +205,10 @@ impl<'a> ConservationAudit<'a> {
             let [x0, y0] = before.linear_momentum;
             let [x1, y1] = now.linear_momentum;
             linear.record(length([x1 - x0 - px, y1 - y0 - py]), of_linear);
-            let extent = sums.extent[lane];
-            let of_angular = Real::maximum(of_angular, LEAST_ARM * extent * of_linear);
             angular.record(now.angular_momentum - before.angular_momentum - l, of_angular);
             energy.record(now.kinetic_energy - before.kinetic_energy - input.work, now.kinetic_energy);
             let [along_x, along_y] = velocity.map(|velocity| velocity * input.time);
-            motion.record(length([x - center[0] - along_x, y - center[1] - along_y]), extent);
+            motion.record(length([x - center[0] - along_x, y - center[1] - along_y]), sums.extent[lane]);
         }
         Ok(())
     }
@@ -245,6 +243,7 @@ impl<'a> ConservationAudit<'a> {
             let none = f64::NAN;
             return ConservationErrors { momentum_drift: none, energy_error: none, center_of_mass_drift: none };
         }
+        all.angular.record(0.0, LEAST_ARM * all.motion.scale * all.linear.scale);
         ConservationErrors {
             momentum_drift: Real::maximum(all.linear.value(), all.angular.value()),
             energy_error: all.energy.value(),

@@ -104,6 +104,7 @@ fn a_folder_that_holds_one_run_takes_no_others() {
     assert_eq!((code, out.as_str()), (2, ""), "{err}");
     let said = "results holds the results of `c`, not those of several scenarios, and a folder holds one run";
     assert!(err.contains(said) && err.contains("--force") && !files.has("a"), "{err}");
+    assert_eq!(err.lines().count(), 1, "said once: {err}");
     assert!(files.has("c.csv") && files.has("summary.json") && files.has("figures"));
 
     // nothing is written, and so nothing replaced, where a scenario cannot be read

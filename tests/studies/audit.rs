@@ -125,15 +125,13 @@ fn limit_violations_of_consecutive_phases() {
 /// All moves along one line through the origin: the angular momentum is that of rounding, which is no drift.
 #[test]
 fn motion_along_a_line_has_no_drift() {
-    let folder = TempDir::new().expect("a folder");
-    let path = folder.path().join("head_on.toml");
     let text = "name = \"head_on\"\nlayout = \"dual_arm_2r\"\n[initial]\njoint_angles = [0.0, 0.0, 3.141592653589793, 0.0]\n\
                 [approach]\nduration = 1.0\ntrajectory = \"quintic\"\ntracking = \"exact\"\n\
                 final_joint_angles = [0.0, 0.0, 3.141592653589793, 0.0]\nfinal_joint_rates = [0.0, 0.0, 0.0, 0.0]\n\
                 [[target]]\nname = \"t\"\narm = \"arm1\"\nmass = 20.0\ninertia = 1.0\nradius = 0.3\ncontact = [-0.3, 0.0]\n\
                 twist = [0.0, -0.1, 0.0]\n[post_impact]\nduration = 5.0\n";
-    fs::write(&path, text).expect("written");
-    let study = run(&Scenario::read(&path, registry::SHIPPED).unwrap_or_else(|report| panic!("{report}")));
+    let scenario = Scenario::parse(text, "it.toml", "".as_ref(), registry::SHIPPED);
+    let study = run(&scenario.unwrap_or_else(|report| panic!("{report}")));
     assert_eq!(study.audit_failures(), Vec::<String>::new());
 }
 

@@ -157,7 +157,8 @@ fn run_by(arguments: &Arguments, program: Program<'_>, mut chosen: Option<Choice
     let above = codes.take(above(arguments)).flatten();
     let mut tasks = Vec::new();
     for (((path, (scenario, source)), folder), objection) in scenarios.iter().zip(&folders).zip(&objections) {
-        let claimed = outside_of_runs(folder, above)
+        // a run in the folder with those of several was said above
+        let claimed = outside_of_runs(folder, several(arguments))
             .and_then(|()| ResultFolder::claim(folder, arguments.force, &keep, objection))
             .map_err(CommandError::from);
         let file = &source.scenario.file;
@@ -201,9 +202,14 @@ fn read(path: &Path, cases: &[String], program: Program<'_>) -> Result<(Scenario
     Ok((scenario, source))
 }
 
-/// The folder with those of several scenarios, where it holds the results of one run, which are to be replaced.
+/// The folder with those of several scenarios, where it is given.
+fn several(arguments: &Arguments) -> Option<&Path> {
+    arguments.out.as_deref().filter(|_| arguments.scenarios.len() > 1)
+}
+
+/// The same, where it holds the results of one run, which are to be replaced.
 fn above(arguments: &Arguments) -> Result<Option<&Path>, CommandError> {
-    let Some(out) = arguments.out.as_deref().filter(|_| arguments.scenarios.len() > 1) else { return Ok(None) };
+    let Some(out) = several(arguments) else { return Ok(None) };
     match run_folder::scenario_in(out) {
         Some(_) if arguments.force => Ok(Some(out)),
         Some(scenario) => {
