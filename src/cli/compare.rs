@@ -1,5 +1,6 @@
 //! `planar-capture compare LAYOUT.toml`: generated against generic dynamics at random states.
 
+use super::out_folder::out_folder;
 use super::terminal::{note, print};
 use super::{CommandError, derive, file_error, layout};
 use crate::compare::{Comparison, LargestError, Refusal, compare};
@@ -38,7 +39,7 @@ pub struct Arguments {
     #[arg(long, value_name = "SEED", default_value_t = 1)]
     seed: u64,
     /// Folder for the worst states [default: results/compare/NAME, NAME the layout's].
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = out_folder())]
     out: Option<PathBuf>,
     /// Replace the files in DIR, whatever they are; not folders in it, hidden files or your home folder.
     #[arg(long)]

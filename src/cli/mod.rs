@@ -37,6 +37,7 @@ mod list;
 mod new;
 mod optional_outputs;
 mod out_file;
+mod out_folder;
 mod progress;
 mod reproduce;
 mod run;

@@ -19,14 +19,14 @@
 
 use super::impacts::impacts;
 use super::printed_impulses::are_comparable;
-use crate::capture::clearance::{LeastDistance, Overlap};
+use crate::capture::clearance::{ClosestApproach, LeastDistance, Overlap};
 use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::impact::ImpactResult;
 use crate::capture::{CaptureResult, CaseResult, Study};
 use crate::output::study_part::StudyPart;
 use crate::plain_text::Column::{Left, Right};
 use crate::plain_text::{Column, Table, sentence};
-use crate::scenario::{Case, Detection, PostCaptureControl, Scenario, Tracking};
+use crate::scenario::{Case, Detection, OnOverlap, PostCaptureControl, Scenario, Tracking};
 use crate::simulate::Phase;
 use crate::simulate::conservation::ConservationErrors;
 
@@ -277,6 +277,9 @@ fn clearance(study: &Study) -> String {
             1 => table.note("and a later overlap, see summary.json"),
             more => table.note(format!("and {more} later overlaps, see summary.json")),
         }
+        if clearance.on_overlap != OnOverlap::Report && clearance.overlaps.iter().any(|overlap| overlap.is_default) {
+            table.note("overlaps of default outlines are reported alone (clearance.on_overlap)");
+        }
         if let Some(time) = stopped {
             table.note(format!("the case ends with this overlap, at {time:.3} s (clearance.on_overlap)"));
         }
@@ -287,18 +290,25 @@ fn clearance(study: &Study) -> String {
     )
 }
 
-/// End effectors that did not meet their targets, where contacts are found by detection.
+/// End effectors that did not meet their targets, where contacts are found by detection, and cases without an
+/// impact.
 fn closest_approaches(scenario: &Scenario, study: &Study) -> String {
-    let pairs = study.cases.iter().flat_map(|case| case.closest.iter().map(move |pair| (&case.name, pair)));
-    let sentences = pairs.map(|(case, pair)| {
+    let pair_of = |case: &str, pair: &ClosestApproach| {
         let (arm, target) = (&scenario.layout.arms[pair.arm].name, &scenario.targets[pair.target].name);
         let (distance, time) = (fixed(pair.distance, 4), fixed(pair.time, 2));
         format!(
             "\n{case}: the end effector of {arm} never meets {target};\n  \
              the smallest distance is {distance} m, at {time} s\n"
         )
-    });
-    sentences.collect()
+    };
+    let of_case = |case: &CaseResult| {
+        let mut sentences: String = case.closest.iter().map(|pair| pair_of(&case.name, pair)).collect();
+        if scenario.post_impact.is_some() && case.capture.is_none() && case.stopped.is_none() {
+            sentences += &format!("\n{}: no impact, and so no motion after it\n", case.name);
+        }
+        sentences
+    };
+    study.cases.iter().map(of_case).collect()
 }
 
 fn balances(scenario: &Scenario, study: &Study) -> String {

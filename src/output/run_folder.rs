@@ -100,8 +100,10 @@ pub fn remove(folder: &Path) -> Result<(), OutputError> {
 fn foreign(folder: &Path, name: &Path, listed: &BTreeSet<&str>) -> Option<PathBuf> {
     match fs::read_dir(folder.join(name)) {
         Ok(inner) => {
-            let mut inner = inner.flatten().map(|entry| name.join(entry.file_name()));
-            inner.find_map(|name| foreign(folder, &name, listed))
+            let mut inner = inner.flatten().map(|entry| name.join(entry.file_name())).peekable();
+            // a folder of the run's may have been emptied
+            let is_own = inner.peek().is_some() || listed.iter().any(|file| Path::new(file).starts_with(name));
+            if is_own { inner.find_map(|name| foreign(folder, &name, listed)) } else { Some(name.to_owned()) }
         }
         Err(_) => name.to_str().is_none_or(|name| !listed.contains(name)).then(|| name.to_owned()),
     }

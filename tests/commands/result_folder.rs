@@ -126,6 +126,8 @@ fn the_folder_of_a_run_has_no_other_in_it() {
     into("sweep", &file("scenarios/sweeps/uncertain_capture.toml").display().to_string());
     assert_eq!(names(&outer), ["a.csv", "summary.json"]);
     assert_eq!(run(&one, &outer.join("../beside"), &[]), (0, String::new()));
+    assert_eq!(run(&one, &outer.join("absent/../../beside"), &[]), (0, String::new()));
+    assert_eq!(names(&outer), ["a.csv", "summary.json"], "no folder is made on the way");
     assert_eq!(run(&one, &outer, &[]), (0, String::new()));
 }
 
@@ -183,6 +185,13 @@ fn results_of_something_else_are_refused_unless_forced() {
 
     assert_eq!(run(&other, &results, &["--force"]), (0, String::new()));
     assert_eq!(names(&results), ["summary.json", "z.csv"]);
+    // an empty folder is not from a run either, with any name
+    for name in ["mine", "figures"] {
+        fs::create_dir(results.join(name)).expect("a folder");
+        let (code, err) = run(&other, &results, &[]);
+        assert!(code == 2 && err.contains(&format!("has `{name}`, which is not from a run of `other`")), "{err}");
+        fs::remove_dir(results.join(name)).expect("it is there");
+    }
     // a folder of files that no run wrote
     let (code, err) = run(&one, folder.path(), &[]);
     assert_eq!(code, 2, "{err}");

@@ -3,7 +3,7 @@
 use crate::{run, scenario};
 use planar_capture::capture::Study;
 use planar_capture::output::console::table;
-use planar_capture::scenario::Scenario;
+use planar_capture::scenario::{OnOverlap, Scenario};
 
 /// The first case of a shipped scenario.
 fn first_case(name: &str) -> (Scenario, Study) {
@@ -116,6 +116,39 @@ fn what_is_not_met_is_named_with_its_distance_and_time() {
     let table = words(&table(&scenario, &study));
     let expected = "too_late: the end effector of arm2 never meets box; the smallest distance is 0.1250 m, at 31.50 s";
     assert!(table.contains(expected), "{table}");
+    assert!(!table.contains("no impact"), "the other is met\n{table}");
+}
+
+/// What a study says to compute after an impact that there is not.
+#[test]
+fn a_case_without_an_impact_says_so() {
+    let mut scenario = scenario("elastic_rebound");
+    scenario.cases.truncate(1);
+    scenario.approach.duration = 1.0;
+    let study = run(&scenario);
+    let said = format!("{}: no impact, and so no motion after it", scenario.cases[0].name);
+    assert!(words(&table(&scenario, &study)).contains(&said));
+    scenario.post_impact = None;
+    assert!(!words(&table(&scenario, &study)).contains(&said), "nothing is missing");
+}
+
+/// Overlaps of default outlines, where those of given ones would fail the run.
+#[test]
+fn overlaps_of_default_outlines_are_said_to_fail_nothing() {
+    let (scenario, mut study) = first_case("raina_shah_2017");
+    let said = "overlaps of default outlines are reported alone (clearance.on_overlap)";
+    for (rule, is_default, expected) in [
+        (OnOverlap::Report, true, false),
+        (OnOverlap::Fail, false, false),
+        (OnOverlap::Fail, true, true),
+        (OnOverlap::Stop, true, true),
+    ] {
+        let clearance = &mut study.cases[0].clearance;
+        clearance.on_overlap = rule;
+        clearance.overlaps.iter_mut().for_each(|overlap| overlap.is_default = is_default);
+        assert!(!clearance.overlaps.is_empty());
+        assert_eq!(words(&table(&scenario, &study)).contains(said), expected, "{rule:?}, {is_default}");
+    }
 }
 
 /// Wheels by themselves, and the base torque's own time at its limit.

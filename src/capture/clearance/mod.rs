@@ -250,7 +250,12 @@ impl ClearanceTracker {
     pub(crate) fn result(&self) -> Clearance {
         let DistanceTracker { bodies, pairs, found, .. } = &self.bodies;
         let names = |pair: usize| pairs[pair].bodies.map(|body| bodies[body].name.clone());
-        let least = |&(distance, time, pair): &(f64, f64, usize)| LeastDistance { distance, time, bodies: names(pair) };
+        // zero has no sign
+        let least = |&(distance, time, pair): &(f64, f64, usize)| LeastDistance {
+            distance: distance + 0.0,
+            time,
+            bodies: names(pair),
+        };
         let mut overlaps: Vec<_> = found.overlaps.iter().collect();
         overlaps.sort_by(|a, b| (a.pair, a.span[0]).partial_cmp(&(b.pair, b.span[0])).expect("times are finite"));
         let mut joined: Vec<(usize, Overlap)> = Vec::new();

@@ -7,6 +7,7 @@ use super::CommandError;
 use super::cases;
 use super::dynamics::Dynamics;
 use super::optional_outputs;
+use super::out_folder::out_folder;
 use super::progress::Display;
 use super::seconds::positive_seconds;
 use super::terminal::note;
@@ -49,7 +50,7 @@ pub struct Arguments {
     scenarios: Vec<PathBuf>,
     /// Folder for summary.json, the CSV time series and all else; of several scenarios for a folder each, of their names
     /// [default: results/NAME, NAME the scenario's].
-    #[arg(long, value_name = "DIR", help_heading = "Results")]
+    #[arg(long, value_name = "DIR", value_parser = out_folder(), help_heading = "Results")]
     out: Option<PathBuf>,
     /// Replace the files in DIR, whatever they are; not folders in it, hidden files or your home folder. Of several
     /// scenarios: in their folders, and the files of a run that DIR itself holds.

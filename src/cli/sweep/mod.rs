@@ -5,6 +5,7 @@ mod replay;
 
 use super::dynamics::Dynamics;
 use super::optional_outputs::{self, FIGURES};
+use super::out_folder::out_folder;
 use super::progress::Display;
 use super::terminal::{note, print};
 use super::{CommandError, file_error};
@@ -49,7 +50,7 @@ pub struct Arguments {
     /// The sweep file.
     sweep: PathBuf,
     /// Folder for manifest.json, cases/, digests/, timing/ and series/ [default: results/NAME, NAME the sweep's].
-    #[arg(long, value_name = "DIR", help_heading = "Results")]
+    #[arg(long, value_name = "DIR", value_parser = out_folder(), help_heading = "Results")]
     out: Option<PathBuf>,
     /// Compute every Nth file of cases only, from the Ith on: for several machines and one folder.
     #[arg(long, value_name = "I/N", value_parser = shard, help_heading = "Computation")]
