@@ -6,7 +6,7 @@ use crate::capture::proximity::motion::{FrameKinematics, FramePair};
 use crate::capture::proximity::part_pair::{Instant, PartPair, SHORTEST};
 use crate::capture::proximity::workspace::PathWorkspace;
 use crate::simulate::path::{PathPart, PathWindow};
-use crate::simulate::root::root;
+use crate::simulate::root::root_by_rates;
 use std::convert::Infallible;
 
 /// A lower least distance than the one found may be missed by this, m; shallower overlaps are none.
@@ -131,22 +131,21 @@ impl WindowSearch<'_> {
         instants.push(left);
         rights.push(end);
         while let Some(right) = rights.last() {
-            let half = 0.5 * (right.time - left.time);
-            let is_known = if left.distance.min(right.distance) < -RESOLUTION {
-                0.5 * (left.distance + right.distance) + self.shapes.speed * half <= gap
+            let doubt = if left.distance.min(right.distance) < -RESOLUTION {
+                self.shapes.doubt_below(&left, right, gap)
             } else {
-                self.shapes.is_above(&left, right, found.goal(pair))
+                self.shapes.doubt(&left, right, found.goal(pair))
             };
-            if is_known || self.shapes.is_shortest([left.time, right.time]) {
-                left = *right;
-                instants.push(left);
-                rights.pop();
-                if instants.len() == MOST_INSTANTS {
-                    self.take(&instants, part, known, found)?;
-                    instants.drain(..MOST_INSTANTS - 1);
-                }
-            } else {
-                rights.push(self.record_at(left.time + half, known, found)?);
+            if let Some([from, to]) = doubt.filter(|doubt| !self.shapes.is_shortest(*doubt)) {
+                rights.push(self.record_at(f64::midpoint(from, to), known, found)?);
+                continue;
+            }
+            left = *right;
+            instants.push(left);
+            rights.pop();
+            if instants.len() == MOST_INSTANTS {
+                self.take(&instants, part, known, found)?;
+                instants.drain(..MOST_INSTANTS - 1);
             }
         }
         (part.lower, part.last) = (end.distance, Some(end));
@@ -224,9 +223,9 @@ impl WindowSearch<'_> {
         // beyond the right one, the nearest last
         let mut rights = Vec::new();
         loop {
-            let half = 0.5 * (right.time - left.time);
-            if !self.shapes.is_above(&left, &right, level) && !self.shapes.is_shortest([left.time, right.time]) {
-                let middle = self.record_at(left.time + half, pair, found)?;
+            let doubt = self.shapes.doubt(&left, &right, level).filter(|doubt| !self.shapes.is_shortest(*doubt));
+            if let Some([from, to]) = doubt {
+                let middle = self.record_at(f64::midpoint(from, to), pair, found)?;
                 let Some(next) = visit(&middle) else { return Ok(()) };
                 level = next;
                 rights.push(right);
@@ -286,8 +285,12 @@ impl WindowSearch<'_> {
         let mut inside = *inside;
         loop {
             let ends = [outside, &inside];
-            let distance = |time| Ok::<f64, Infallible>(self.at(time).distance);
-            let Ok(time) = root(ends.map(|at| at.time), ends.map(|at| at.distance), SHORTEST, distance);
+            let (times, distances) = (ends.map(|at| at.time), ends.map(|at| self.shapes.distance_and_rate(at)));
+            let distance = |time| {
+                let instant = self.at(time);
+                Ok::<_, Infallible>(self.shapes.distance_and_rate(&instant))
+            };
+            let Ok(time) = root_by_rates(times, distances, SHORTEST, distance);
             let touch = self.at(time);
             let between = if outside.time < time { [*outside, touch] } else { [touch, *outside] };
             let mut nearer = None;

@@ -28,6 +28,8 @@ pub(in crate::capture) struct Instant {
     turns: [f64; 2],
     /// How fast the normal turns, rad/s: with the body of the edge to which it belongs.
     turn: f64,
+    /// Not less than the relative speed of any two points, m/s.
+    speed: f64,
     /// More than the distance of a corner of the one from a corner of the other, m.
     apart: f64,
 }
@@ -53,6 +55,7 @@ impl PartPair<'_> {
         let turn = edge_of.map_or(0.0, |part| [omega, other_omega][part]);
         let ([nx, ny], [bx, by]) = (normal, between);
         let [rate_x, rate_y] = first.seen([ux - vx, uy - vy]);
+        let speed = (rate_x * rate_x + rate_y * rate_y).sqrt();
         let (sin, cos) = turned_by;
         Instant {
             time,
@@ -61,8 +64,22 @@ impl PartPair<'_> {
             gap: [nx * bx + ny * by, nx * rate_x + ny * rate_y + turn * (nx * by - ny * bx)],
             turns: [omega - turn, other_omega - turn],
             turn,
+            speed: speed + omega.abs() * self.parts[0].reach + other_omega.abs() * self.parts[1].reach,
             apart: bx.abs() + by.abs() + self.parts[0].reach + self.parts[1].reach,
         }
+    }
+
+    /// Signed distance, m, and its rate, m/s: where the nearest corners are several, that of one of them.
+    pub(in crate::capture) fn distance_and_rate(&self, instant: &Instant) -> [f64; 2] {
+        let Instant { distance, normals, gap: [_, rate], turns, .. } = *instant;
+        let along = |part: usize, [x, y]: [f64; 2]| normals[part][0] * x + normals[part][1] * y;
+        let farthest = |part: usize, sign: f64| {
+            let corners = self.parts[part].corners.iter();
+            corners.max_by(|a, b| (sign * along(part, **a)).total_cmp(&(sign * along(part, **b)))).copied()
+        };
+        let turning = |part: usize, [x, y]: [f64; 2]| turns[part] * (normals[part][1] * x - normals[part][0] * y);
+        let [end, start] = [farthest(0, 1.0), farthest(1, -1.0)].map(Option::unwrap_or_default);
+        [distance, rate + turning(1, start) - turning(0, end)]
     }
 
     /// Whether an interval between two times is too short to be divided: for the motion, or for digits of the time.
@@ -98,12 +115,53 @@ impl PartPair<'_> {
             - 0.5 * (self.acceleration + turning) * after * after
     }
 
-    /// Whether the distance is at least so large between two instants, as far as the bounds of the motion show.
-    pub(in crate::capture) fn is_above(&self, left: &Instant, right: &Instant, level: f64) -> bool {
-        // it falls from both by the speed at most
-        let by_speed = 0.5 * (left.distance + right.distance - self.speed * (right.time - left.time));
-        let half = 0.5 * (right.time - left.time);
-        by_speed >= level || (self.bound(left, half) >= level && self.bound(right, -half) >= level)
+    /// Between which times of two instants the distance may be below a level; `None` where it is not, as the bounds of the
+    /// motion show.
+    pub(in crate::capture) fn doubt(&self, left: &Instant, right: &Instant, level: f64) -> Option<[f64; 2]> {
+        let length = right.time - left.time;
+        let by_speed = [left, right].map(|instant| self.time_for(instant, instant.distance - level));
+        if by_speed[0] + by_speed[1] >= length {
+            return None;
+        }
+        let from = self.reach(left, length, level).max(by_speed[0]);
+        if from + by_speed[1] >= length {
+            return None;
+        }
+        let to = self.reach(right, -length, level).max(by_speed[1]);
+        if from + to >= length { None } else { Some([left.time + from, right.time - to]) }
+    }
+
+    /// The same for times at which it may be above the level.
+    pub(in crate::capture) fn doubt_below(&self, left: &Instant, right: &Instant, level: f64) -> Option<[f64; 2]> {
+        let [from, to] = [left, right].map(|instant| self.time_for(instant, level - instant.distance));
+        if from + to >= right.time - left.time { None } else { Some([left.time + from, right.time - to]) }
+    }
+
+    /// For how long before and after an instant the distance does not change by more than this, m, as speed and acceleration
+    /// show: v t + ½ a t² is that. Zero for changes that are not positive.
+    fn time_for(&self, instant: &Instant, change: f64) -> f64 {
+        let change = change.max(0.0);
+        let by_acceleration =
+            2.0 * change / (instant.speed + (instant.speed * instant.speed + 2.0 * self.acceleration * change).sqrt());
+        // nothing moves, or nothing may change
+        if change > 0.0 { by_acceleration.max(change / self.speed) } else { 0.0 }
+    }
+
+    /// For how long after an instant (or before it, where `after` is negative) the distance is at least so large, of so long
+    /// at most, s, as the bound shows.
+    fn reach(&self, instant: &Instant, after: f64, level: f64) -> f64 {
+        let (above, end) = (instant.distance - level, self.bound(instant, after) - level);
+        if above >= 0.0 && end >= 0.0 {
+            return after.abs();
+        }
+        // NaN is above nothing
+        if !(above > 0.0 && end < 0.0) {
+            return 0.0;
+        }
+        // a concave bound is above its chords
+        let zero_of_chord = |time: f64, value: f64| time + (after - time) * (value / (value - end));
+        let time = zero_of_chord(0.0, above);
+        zero_of_chord(time, (self.bound(instant, time) - level).max(0.0)).abs()
     }
 
     /// Times in the interval between which the distance falls from above `-depth` to below it, for the first time;
@@ -122,14 +180,13 @@ impl PartPair<'_> {
         // the instants to the right, the nearest last
         let mut rights = vec![instant_at(self, end)];
         while let Some(right) = rights.last() {
-            let half = 0.5 * (right.time - left.time);
-            if !self.is_above(&left, right, -depth) && !self.is_shortest([left.time, right.time]) {
+            if let Some([from, to]) = self.doubt(&left, right, -depth).filter(|doubt| !self.is_shortest(*doubt)) {
                 if divisions == MAX_DIVISIONS {
-                    let (what, change) = ("bounds of the distance between an end effector and its target", half);
+                    let (what, change) = ("bounds of the distance between an end effector and its target", to - from);
                     return Err(Error::NotConverged { what, iterations: divisions, change });
                 }
                 divisions += 1;
-                rights.push(instant_at(self, left.time + half));
+                rights.push(instant_at(self, f64::midpoint(from, to)));
                 continue;
             }
             if right.distance < -depth {

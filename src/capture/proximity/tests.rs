@@ -354,6 +354,28 @@ proptest! {
                 prop_assert!(bound <= free.at(other).distance + 1e-12, "{} {} {}", time, other, bound);
             }
         }
+        // where two instants leave no doubt the distance is on its side of a level
+        let rightmost = 0.4 * values[0][3].abs() - 0.45;
+        let [left, right] = [-0.5, rightmost].map(|time| free.at(time));
+        let nearest = left.distance.min(right.distance);
+        for level in [-depth, nearest - 0.3, nearest - depth, nearest - 1e-3, nearest + 1e-3] {
+            let within = || times().filter(|time| *time <= rightmost);
+            let outside = |doubt: Option<[f64; 2]>| {
+                within().filter(move |time| doubt.is_none_or(|[from, to]| !(from..=to).contains(time)))
+            };
+            for time in outside(free.pair.doubt(&left, &right, level)) {
+                prop_assert!(free.at(time).distance >= level - 1e-12, "{} {}", time, level);
+            }
+            for time in outside(free.pair.doubt_below(&left, &right, level)) {
+                prop_assert!(free.at(time).distance <= level + 1e-12, "{} {}", time, level);
+            }
+        }
+        // at a kink the rate is that before or after
+        let [before, now, after] = [-HALF, 0.0, HALF].map(|step| free.pair.distance_and_rate(&free.at(0.1 + step)));
+        let ([distance, rate], differences) = (now, [now[0] - before[0], after[0] - now[0]].map(|change| change / HALF));
+        prop_assert_eq!(distance, free.at(0.1).distance);
+        let nearest_difference = differences.map(|difference| (difference - rate).abs()).into_iter().fold(f64::INFINITY, f64::min);
+        prop_assert!(nearest_difference < 1e-2, "{} {:?}", rate, differences);
         prop_assume!(free.at(-0.5).distance > -depth);
         let mut count = 0;
         let found = free.pair.first_contact([-0.5, 0.5], depth, |_, time| { count += 1; free.at(time) }).expect("bounds");
