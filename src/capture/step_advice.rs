@@ -75,7 +75,9 @@ fn advice(
     });
     let order = if is_limited { 1 } else { integrator.properties().order? };
     let wanted = rounded_down(step * libm::pow(SHARE / worst, 1.0 / f64::from(order)));
-    let remedy = if is_limited {
+    let remedy = if is_limited && duration / wanted > MOST_STEPS {
+        "they have to be far shorter, or `integrator = \"adaptive\"`".to_owned()
+    } else if is_limited {
         format!("`step = {wanted}` would probably do")
     } else if worst > LOST || duration / wanted > MOST_STEPS {
         "`integrator = \"adaptive\"` would do".to_owned()

@@ -80,7 +80,7 @@ fn overlaps(scenario: &Scenario, robots: Robots<'_>) -> Result<Vec<Warning>, Stu
             return Ok(vec![warning("approach", why, "`run` looks at all of it")]);
         }
     } else {
-        planned.approach.step = planned.approach.step.max(planned.approach.duration / STEPS);
+        planned.approach.step = planned.approach.duration / STEPS;
         planned.approach.integration = Integration::default();
         planned.approach.tracking = Tracking::InverseDynamics;
         planned.approach.actuation = Actuation::default();

@@ -25,7 +25,7 @@ pub struct Display {
 }
 
 fn interval(text: &str) -> Result<Duration, String> {
-    Duration::try_from_secs_f64(seconds(text)?).map_err(|_| "expected a time of at least 0 s".to_owned())
+    Duration::try_from_secs_f64(seconds(text)?).map_err(|_| "expected a time of 0 s or more, at most 1e19 s".to_owned())
 }
 
 /// Shows the running part of a study.

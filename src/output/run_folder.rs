@@ -21,6 +21,7 @@
 
 use super::output_error::OutputError;
 use super::regular_file;
+use crate::plain_text::count;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::{Component, Path, PathBuf};
@@ -42,7 +43,8 @@ pub fn objection(folder: &Path, names: &[String], scenario: &str) -> Option<Stri
         if let [first, others @ ..] = runs.as_slice()
             && runs.len() == names.len()
         {
-            let others = if others.is_empty() { String::new() } else { format!(" and {} others", others.len()) };
+            let others =
+                if others.is_empty() { String::new() } else { format!(" and {}", count(others.len(), "other")) };
             return Some(format!("has the folders of other runs in it, `{first}`{others}"));
         }
         let name = names.iter().find(|name| *name == SUMMARY).or(names.first())?;

@@ -92,7 +92,7 @@ fn a_folder_of_several_runs_is_not_one_for_a_run() {
     assert_eq!(code, 2);
     assert!(
         err.contains(
-            "has the folders of other runs in it, `one` and 1 others: choose another folder, or a new one in it"
+            "has the folders of other runs in it, `one` and 1 other: choose another folder, or a new one in it"
         ),
         "{err}"
     );

@@ -539,6 +539,21 @@ fn the_report_says_which_contacts_are_made() {
     assert!(met > 1, "{met} contacts");
 }
 
+/// A browser ends the data where they end, whatever names are in them.
+#[test]
+fn the_reports_data_have_no_elements() {
+    let mut scenario = scenario("raina_shah_2017");
+    scenario.cases.truncate(1);
+    let mut study = run(&scenario);
+    let name = "<!-- <script> </script>";
+    (scenario.cases[0].name, study.cases[0].name) = (name.to_owned(), name.to_owned());
+    let page = report(&scenario, &study);
+    let (_, rest) = page.split_once("id=\"data\">").expect("data");
+    let (data, _) = rest.split_once("</script>").expect("an end");
+    assert!(!data.contains('<') && data.contains("\\u003c!-- \\u003cscript>"));
+    assert_eq!(data_of(&page)["cases"][0]["name"], name);
+}
+
 /// The data that the report's programs read.
 fn report_data(scenario: &Scenario, study: &Study) -> Value {
     data_of(&report(scenario, study))

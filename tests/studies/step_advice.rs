@@ -70,6 +70,13 @@ fn advice_is_that_of_the_phase() {
         let [of_order_1] = &step_advice(&scenario, &study)[..] else { panic!("no advice") };
         assert!(of_order_1.contains("`step = 0.0003`") && !of_order_1.contains("adaptive"), "{of_order_1}");
     }
+    // more steps than anyone takes
+    study.cases[1].capture.as_mut().expect("a capture").post_impact.path_error = 800.0;
+    let [of_many] = &step_advice(&scenario, &study)[..] else { panic!("no advice") };
+    assert!(
+        of_many.contains("far shorter, or `integrator = \"adaptive\"`") && !of_many.contains("step ="),
+        "{of_many}"
+    );
     // what no number says has no advice
     study.cases[1].capture.as_mut().expect("a capture").post_impact.path_error = f64::NAN;
     assert_eq!(step_advice(&scenario, &study), Vec::<String>::new());

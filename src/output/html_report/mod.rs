@@ -71,8 +71,8 @@ pub fn write_report(
     for (placeholder, text) in PARTS {
         page = page.replace(placeholder, text.trim_end());
     }
-    // `</` would end the script element
-    let data = serde_json::to_string(&data::data(scenario, parts, manifest))?.replace("</", "<\\/");
+    // `</` would end the script element, and after `<!--` a `<script` would let nothing end it
+    let data = serde_json::to_string(&data::data(scenario, parts, manifest))?.replace('<', "\\u003c");
     to.write_all(page.replacen("/*data*/", &data, 1).as_bytes())
 }
 

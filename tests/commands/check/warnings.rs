@@ -652,6 +652,9 @@ fn overlaps_that_fail_a_run_are_warned_of() {
     let check = |text: &str| inspect(text, "it.toml", folder.path(), SHIPPED).expect("valid").warnings.to_string();
     let text = designed("0.0, 0.6") + "\n[clearance]\non_overlap = \"fail\"\n";
     assert!(check(&text).contains("along the planned path"), "{}", check(&text));
+    // the spacing of the audit is no step of the planned path
+    let coarse = text.replacen("duration = 20.0", "duration = 20.0\nstep = 20.0", 1);
+    assert_eq!(check(&coarse), check(&text));
     // a rod that turns ten thousand times a second
     let fast = designed("0.0, 0.6").replace("twist = [0.3, 0.0, 0.0]", "twist = [62831.85, 0.0, 0.0]");
     let fast = fast.replace("radius = 0.6", "polygon = [[-1.4, -0.05], [1.4, -0.05], [1.4, 0.05], [-1.4, 0.05]]");
