@@ -589,6 +589,47 @@ fn every_output_is_a_number_of_the_summary() {
     assert_eq!(expected, BTreeMap::new(), "numbers that no column has");
 }
 
+/// Of several impacts an arm has the impulse and the mean force of the first in which it makes a contact.
+#[test]
+fn impulses_are_those_of_the_first_impact_of_an_arm() {
+    let groups: Vec<&str> = OutputGroup::ALL.iter().map(|(name, _)| *name).collect();
+    let place = Workplace::new(&format!(
+        "name = \"later\"\nscenario = \"scenario.toml\"\ncase = \"half\"\ncases = 1\nseed = 1\n[[vary]]\nkey = \"target.ball.mass\"\n\
+         distribution = {{ uniform = {{ min = 19.0, max = 21.0 }} }}\n[collect]\noutputs = {groups:?}\n"
+    ));
+    fs::copy(file("scenarios/elastic_rebound.toml"), place.path("scenario.toml")).expect("copied");
+    place.computed("out", &[]);
+    let (code, _, err) = place.sweep("out", &["--replay", "0"]);
+    assert_eq!(code, 0, "{err}");
+    let summary = fs::read(place.path("out/replay/000000/results/summary.json")).expect("a summary");
+    let summary: Value = serde_json::from_slice(&summary).expect("JSON");
+    let case = &summary["cases"][0];
+    let later = case["post_impact"]["impacts"].as_array().expect("later impacts");
+    let impacts: Vec<&Value> = std::iter::once(&case["impact"]).chain(later).collect();
+    let firsts = [0, 1].map(|arm| {
+        let is_made = |impact: &&Value| impact["exact"]["impulses"][arm].is_array();
+        impacts.iter().position(is_made).expect("both arms meet their targets")
+    });
+    assert_ne!(firsts[0], firsts[1], "one after the other");
+    let row = &place.rows("out", 0)[0];
+    for (arm, first) in firsts.into_iter().enumerate() {
+        let name = format!("arm{}", arm + 1);
+        let impact = impacts[first];
+        let contact = impact["contacts"].as_array().expect("contacts").iter().find(|contact| contact["arm"] == name);
+        let force = &contact.expect("its contact")["mean_force"];
+        let expected = [
+            ("impulse_magnitude", &impact["exact"]["impulse_magnitudes"][arm]),
+            ("impulse_fx", &impact["exact"]["impulses"][arm][1]),
+            ("impulse_fy", &impact["exact"]["impulses"][arm][2]),
+            ("mean_force_fx", &force[1]),
+        ];
+        for (output, expected) in expected {
+            let Field::Double(found) = row[&format!("{name}_{output}")] else { panic!("{name}_{output}") };
+            assert_eq!(Some(found), expected.as_f64(), "{name}_{output}");
+        }
+    }
+}
+
 /// The time series of a case are those that a run of it writes, with rows as far apart as the sweep wants them.
 #[test]
 fn time_series_are_those_of_a_run() {

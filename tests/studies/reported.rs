@@ -7,7 +7,7 @@ use planar_capture::capture::{CaseResult, Study, study};
 use planar_capture::output::console::table;
 use planar_capture::owned::RobotState;
 use planar_capture::registry;
-use planar_capture::scenario::{PostCaptureControl, Scenario};
+use planar_capture::scenario::{Detection, PostCaptureControl, Scenario};
 use planar_capture::simulate::Sample;
 use planar_capture::simulate::limits::{LimitViolation, LimitViolations};
 use planar_capture::simulate::system::Body;
@@ -184,22 +184,47 @@ fn the_reports_work_is_that_of_joints_and_base() {
 /// An end effector and a target close at a positive speed, which the impulse of a bounce is the multiple of.
 #[test]
 fn the_reports_closing_speeds_give_the_impulses() {
-    let scenario = scenario("elastic_rebound");
+    let mut scenario = scenario("elastic_rebound");
+    // each target has its own restitution
+    scenario.cases[1].restitutions = vec![0.9, 0.2];
     let data = report_data(&scenario, &run(&scenario));
-    let mut seen = 0;
-    for case in data["cases"].as_array().expect("cases") {
+    let (mut seen, mut of_targets) = (0, [0; 2]);
+    for (case, given) in data["cases"].as_array().expect("cases").iter().zip(&scenario.cases) {
         for impact in case["impacts"].as_array().expect("impacts") {
             let [contact] = &impact["contacts"].as_array().expect("contacts")[..] else { continue };
-            let [speed, index, restitution] =
-                ["closing_speed", "impulse_index", "restitution"].map(|key| number(&contact[key]));
+            let [speed, index] = ["closing_speed", "impulse_index"].map(|key| number(&contact[key]));
+            let target = usize::from(contact["target"] == 1);
+            let restitution = given.restitutions[target];
+            assert_eq!(number(&contact["restitution"]).to_bits(), restitution.to_bits());
             let impulse = numbers(&contact["impulse"]);
             let expected = impulse[1].hypot(impulse[2]);
             let found = index * speed * (1.0 + restitution);
             assert_close("impulse", &[found], &[expected], tolerance::SAME_IMPACT * expected);
             seen += 1;
+            of_targets[target] += 1;
         }
     }
-    assert!(seen > 2, "{seen} single contacts");
+    assert!(seen > 2 && of_targets.iter().all(|count| *count > 0), "{seen} single contacts, {of_targets:?}");
+}
+
+/// Two arms that meet one target, each with its own kind of contact, of which one is found by detection and the other at the
+/// same time.
+#[test]
+fn detected_contacts_have_the_kinds_of_their_arms() {
+    let mut scenario = scenario("large_target");
+    scenario.cases.retain(|case| case.name == "rigid_and_pin");
+    scenario.contact.detection = Detection::Event;
+    scenario.targets[0].position = Some([0.4, 3.05]);
+    scenario.targets[0].yaw = -0.6;
+    let summary = summary(&scenario, &run(&scenario));
+    let case = &summary["cases"][0];
+    let later = case["post_impact"]["impacts"].as_array().into_iter().flatten();
+    let contacts =
+        std::iter::once(&case["impact"]).chain(later).flat_map(|impact| impact["contacts"].as_array()).flatten();
+    let words = |contact: &Value| ["arm", "kind"].map(|key| contact[key].as_str().expect("a word").to_owned());
+    let mut found: Vec<_> = contacts.map(words).collect();
+    found.sort();
+    assert_eq!(found, [["arm1", "rigid"], ["arm2", "pin"]]);
 }
 
 /// The arm that is too late for the box is named with it, whichever target is the first in the file.
