@@ -136,7 +136,7 @@ impl WindowSearch<'_> {
             } else {
                 self.shapes.doubt(&left, right, found.goal(pair))
             };
-            if let Some([from, to]) = doubt.filter(|doubt| !self.shapes.is_shortest(*doubt)) {
+            if let Some([from, to]) = doubt {
                 rights.push(self.record_at(f64::midpoint(from, to), known, found)?);
                 continue;
             }
@@ -223,8 +223,7 @@ impl WindowSearch<'_> {
         // beyond the right one, the nearest last
         let mut rights = Vec::new();
         loop {
-            let doubt = self.shapes.doubt(&left, &right, level).filter(|doubt| !self.shapes.is_shortest(*doubt));
-            if let Some([from, to]) = doubt {
+            if let Some([from, to]) = self.shapes.doubt(&left, &right, level) {
                 let middle = self.record_at(f64::midpoint(from, to), pair, found)?;
                 let Some(next) = visit(&middle) else { return Ok(()) };
                 level = next;

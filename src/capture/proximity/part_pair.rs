@@ -83,7 +83,7 @@ impl PartPair<'_> {
     }
 
     /// Whether an interval between two times is too short to be divided: for the motion, or for digits of the time.
-    pub(in crate::capture) fn is_shortest(&self, [start, end]: [f64; 2]) -> bool {
+    fn is_shortest(&self, [start, end]: [f64; 2]) -> bool {
         let shortest = SHORTEST.min(NEAREST / self.speed);
         end - start <= shortest.max(4.0 * f64::EPSILON * end.abs())
     }
@@ -116,7 +116,7 @@ impl PartPair<'_> {
     }
 
     /// Between which times of two instants the distance may be below a level; `None` where it is not, as the bounds of the
-    /// motion show.
+    /// motion show, or for too short a time to be divided.
     pub(in crate::capture) fn doubt(&self, left: &Instant, right: &Instant, level: f64) -> Option<[f64; 2]> {
         let length = right.time - left.time;
         let by_speed = [left, right].map(|instant| self.time_for(instant, instant.distance - level));
@@ -128,13 +128,18 @@ impl PartPair<'_> {
             return None;
         }
         let to = self.reach(right, -length, level).max(by_speed[1]);
-        if from + to >= length { None } else { Some([left.time + from, right.time - to]) }
+        self.remainder(left, right, [from, to])
     }
 
     /// The same for times at which it may be above the level.
     pub(in crate::capture) fn doubt_below(&self, left: &Instant, right: &Instant, level: f64) -> Option<[f64; 2]> {
-        let [from, to] = [left, right].map(|instant| self.time_for(instant, level - instant.distance));
-        if from + to >= right.time - left.time { None } else { Some([left.time + from, right.time - to]) }
+        self.remainder(left, right, [left, right].map(|instant| self.time_for(instant, level - instant.distance)))
+    }
+
+    /// What is left between two instants with these times after the one and before the other, s, if it can be divided.
+    fn remainder(&self, left: &Instant, right: &Instant, [after, before]: [f64; 2]) -> Option<[f64; 2]> {
+        let (from, to) = (left.time + after, right.time - before);
+        (!self.is_shortest([from, to])).then_some([from, to])
     }
 
     /// For how long before and after an instant the distance does not change by more than this, m, as speed and acceleration
@@ -143,8 +148,8 @@ impl PartPair<'_> {
         let change = change.max(0.0);
         let by_acceleration =
             2.0 * change / (instant.speed + (instant.speed * instant.speed + 2.0 * self.acceleration * change).sqrt());
-        // nothing moves, or nothing may change
-        if change > 0.0 { by_acceleration.max(change / self.speed) } else { 0.0 }
+        // NaN, where nothing moves and nothing may change, is no time
+        by_acceleration.max(change / self.speed).max(0.0)
     }
 
     /// For how long after an instant (or before it, where `after` is negative) the distance is at least so large, of so long
@@ -180,7 +185,7 @@ impl PartPair<'_> {
         // the instants to the right, the nearest last
         let mut rights = vec![instant_at(self, end)];
         while let Some(right) = rights.last() {
-            if let Some([from, to]) = self.doubt(&left, right, -depth).filter(|doubt| !self.is_shortest(*doubt)) {
+            if let Some([from, to]) = self.doubt(&left, right, -depth) {
                 if divisions == MAX_DIVISIONS {
                     let (what, change) = ("bounds of the distance between an end effector and its target", to - from);
                     return Err(Error::NotConverged { what, iterations: divisions, change });
