@@ -290,8 +290,7 @@ fn clearance(study: &Study) -> String {
     )
 }
 
-/// End effectors that did not meet their targets, where contacts are found by detection, and cases without an
-/// impact.
+/// End effectors that did not meet their targets, where contacts are found by detection, and cases without an impact.
 fn closest_approaches(scenario: &Scenario, study: &Study) -> String {
     let pair_of = |case: &str, pair: &ClosestApproach| {
         let (arm, target) = (&scenario.layout.arms[pair.arm].name, &scenario.targets[pair.target].name);
@@ -301,14 +300,14 @@ fn closest_approaches(scenario: &Scenario, study: &Study) -> String {
              the smallest distance is {distance} m, at {time} s\n"
         )
     };
-    let of_case = |case: &CaseResult| {
-        let mut sentences: String = case.closest.iter().map(|pair| pair_of(&case.name, pair)).collect();
+    let mut sentences = Vec::new();
+    for case in &study.cases {
+        sentences.extend(case.closest.iter().map(|pair| pair_of(&case.name, pair)));
         if scenario.post_impact.is_some() && case.capture.is_none() && case.stopped.is_none() {
-            sentences += &format!("\n{}: no impact, and so no motion after it\n", case.name);
+            sentences.push(format!("\n{}: no impact, and so no motion after it\n", case.name));
         }
-        sentences
-    };
-    study.cases.iter().map(of_case).collect()
+    }
+    sentences.concat()
 }
 
 fn balances(scenario: &Scenario, study: &Study) -> String {

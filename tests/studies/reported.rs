@@ -220,7 +220,7 @@ fn detected_contacts_have_the_kinds_of_their_arms() {
     let case = &summary["cases"][0];
     let later = case["post_impact"]["impacts"].as_array().into_iter().flatten();
     let contacts =
-        std::iter::once(&case["impact"]).chain(later).flat_map(|impact| impact["contacts"].as_array()).flatten();
+        std::iter::once(&case["impact"]).chain(later).filter_map(|impact| impact["contacts"].as_array()).flatten();
     let words = |contact: &Value| ["arm", "kind"].map(|key| contact[key].as_str().expect("a word").to_owned());
     let mut found: Vec<_> = contacts.map(words).collect();
     found.sort();
