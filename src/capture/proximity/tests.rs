@@ -423,6 +423,24 @@ fn bounds_of_distances_are_attained_on_a_line() {
     }
 }
 
+/// From rest a distance changes by the acceleration alone, and no later than that.
+#[test]
+fn doubts_begin_where_an_accelerated_motion_is() {
+    let (parts, acceleration) = ([ConvexPart::point(), ConvexPart::point()], 0.8);
+    let pair = PartPair { parts: parts.each_ref(), speed: acceleration, acceleration };
+    for sign in [-1.0, 1.0] {
+        let at = |time: f64| {
+            let (x, rate) = (1.0 + 0.5 * sign * acceleration * time * time, sign * acceleration * time);
+            let moving = FrameState::new([0.0, x, 0.0], [0.0, rate, 0.0]);
+            pair.at(time, [FrameState::new([0.0; 3], [0.0; 3]), moving], &mut PlacedPart::default())
+        };
+        let (left, right, level) = (at(0.0), at(1.0), 1.0 + 0.1 * sign);
+        let doubt = if sign < 0.0 { pair.doubt(&left, &right, level) } else { pair.doubt_below(&left, &right, level) };
+        // 0.1 m is half the acceleration times the square of 0.5 s
+        planar_proof::assert_close("doubt", &doubt.expect("it goes beyond"), &[0.5, 1.0], 1e-12);
+    }
+}
+
 /// Where no bound excludes a contact the search ends after its most divisions, with how many that are.
 #[test]
 fn parts_without_a_bound_are_not_searched_for_ever() {
