@@ -39,6 +39,11 @@ const SWEEP: &str = r#"
     distribution = { uniform = { min = 40.0, max = 60.0 } }
 "#;
 
+/// The names of all groups of outputs.
+fn all_groups() -> Vec<&'static str> {
+    OutputGroup::ALL.iter().map(|(name, _)| *name).collect()
+}
+
 /// A folder with a scenario and a sweep.
 struct Workplace(TempDir);
 
@@ -77,6 +82,15 @@ impl Workplace {
         let mut command = command();
         command.arg("sweep").arg(self.path("sweep.toml")).arg("--out").arg(self.path(out)).args(more);
         said(command.output().expect("it runs"))
+    }
+
+    /// The case of the summary of a replay.
+    fn replayed(&self, index: u32) -> Value {
+        let (code, _, err) = self.sweep("out", &["--replay", &index.to_string()]);
+        assert_eq!(code, 0, "{err}");
+        let summary = self.path(&format!("out/replay/{index:06}/results/summary.json"));
+        let summary: Value = serde_json::from_slice(&fs::read(summary).expect("a summary")).expect("JSON");
+        summary["cases"][0].clone()
     }
 
     fn computed(&self, out: &str, more: &[&str]) -> BTreeMap<PathBuf, Vec<u8>> {
@@ -553,7 +567,7 @@ fn numbers_of(case: &Value, positions: [[f64; 2]; 2]) -> BTreeMap<String, Option
 /// All outputs that there are, of robot, targets and impact: the numbers of the summary of the same case.
 #[test]
 fn every_output_is_a_number_of_the_summary() {
-    let groups: Vec<&str> = OutputGroup::ALL.iter().map(|(name, _)| *name).collect();
+    let groups = all_groups();
     let place = Workplace::new(&format!(
         "name = \"all\"\nscenario = \"scenario.toml\"\ncases = 2\nseed = 1\n[[vary]]\nkey = \"target.target1.mass\"\n\
          distribution = {{ uniform = {{ min = 8.0, max = 12.0 }} }}\n[[vary]]\nkey = \"case.case2.target_twists.target2[0]\"\n\
@@ -565,11 +579,7 @@ fn every_output_is_a_number_of_the_summary() {
         + "\n[contact]\nduration = 0.25\n";
     fs::write(place.path("scenario.toml"), scenario).expect("written");
     place.computed("out", &[]);
-    let (code, _, err) = place.sweep("out", &["--replay", "1"]);
-    assert_eq!(code, 0, "{err}");
-    let summary = fs::read(place.path("out/replay/000001/results/summary.json")).expect("a summary");
-    let summary: Value = serde_json::from_slice(&summary).expect("JSON");
-    let mut expected = numbers_of(&summary["cases"][0], [[2.0, -2.0], [-2.0, 2.0]]);
+    let mut expected = numbers_of(&place.replayed(1), [[2.0, -2.0], [-2.0, 2.0]]);
     let row = &place.rows("out", 0)[1];
     let others =
         ["case", "captured", "status", "message", "target.target1.mass", "case.case2.target_twists.target2[0]"];
@@ -592,18 +602,14 @@ fn every_output_is_a_number_of_the_summary() {
 /// Of several impacts an arm has the impulse and the mean force of the first in which it makes a contact.
 #[test]
 fn impulses_are_those_of_the_first_impact_of_an_arm() {
-    let groups: Vec<&str> = OutputGroup::ALL.iter().map(|(name, _)| *name).collect();
+    let groups = all_groups();
     let place = Workplace::new(&format!(
         "name = \"later\"\nscenario = \"scenario.toml\"\ncase = \"half\"\ncases = 1\nseed = 1\n[[vary]]\nkey = \"target.ball.mass\"\n\
          distribution = {{ uniform = {{ min = 19.0, max = 21.0 }} }}\n[collect]\noutputs = {groups:?}\n"
     ));
     fs::copy(file("scenarios/elastic_rebound.toml"), place.path("scenario.toml")).expect("copied");
     place.computed("out", &[]);
-    let (code, _, err) = place.sweep("out", &["--replay", "0"]);
-    assert_eq!(code, 0, "{err}");
-    let summary = fs::read(place.path("out/replay/000000/results/summary.json")).expect("a summary");
-    let summary: Value = serde_json::from_slice(&summary).expect("JSON");
-    let case = &summary["cases"][0];
+    let case = place.replayed(0);
     let later = case["post_impact"]["impacts"].as_array().expect("later impacts");
     let impacts: Vec<&Value> = std::iter::once(&case["impact"]).chain(later).collect();
     let firsts = [0, 1].map(|arm| {
@@ -987,7 +993,7 @@ fn unit_of(name: &str) -> Option<&'static str> {
 /// Every column of outputs has the unit of its quantity, in the file and on the page.
 #[test]
 fn columns_have_the_units_of_their_quantities() {
-    let groups: Vec<&str> = OutputGroup::ALL.iter().map(|(name, _)| *name).collect();
+    let groups = all_groups();
     let place = Workplace::new(&format!(
         "name = 'units'\nscenario = 'scenario.toml'\ncases = 12\nseed = 1\n[[vary]]\nkey = 'target.target1.mass'\n\
          distribution = {{ uniform = {{ min = 8.0, max = 12.0 }} }}\n[collect]\noutputs = {groups:?}\n"
