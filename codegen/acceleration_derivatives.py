@@ -130,7 +130,7 @@ def of_columns(columns: list[Column]) -> ca.SX:
 
 def acceleration_derivatives_family(symbols: Symbols, inputs: Inputs) -> Family:
     dynamics = AccelerationDerivatives(symbols, inputs)
-    pivot = smallest_pivot(dynamics.mobility.smallest_pivot())
+    pivot = smallest_pivot(dynamics.mobility.base.smallest_pivot())
     source = "Raina & Shah (2017), eq. (1)"
     rows = "rows base [alpha, ax, ay] then joint accelerations"
     inverse = matrix(

@@ -156,10 +156,7 @@ class LeafBody:
         label, constant = own.label, symbols.constant
         self.first_moment = own.first_moment(symbols)
         r = perpendicular(self.first_moment)
-        about_joint = own.about_joint(symbols)
-        self.inverse = symbols.reciprocal_constant(
-            f"{label}_inverse_joint_inertia", about_joint, "1/(kg m^2)", "1 / (I + m |c|^2)"
-        )
+        self.inverse = own.inverse_about_joint(symbols)
         self.angular_response = (
             constant(f"{label}_angular_response_x", r[0] * self.inverse, "1/m", "-m c_y / (I + m |c|^2)"),
             constant(f"{label}_angular_response_y", r[1] * self.inverse, "1/m", "m c_x / (I + m |c|^2)"),
@@ -216,9 +213,7 @@ class TipBody:
     def __init__(self, symbols: Symbols, own: RigidBodyInertia, added: ca.SX) -> None:
         label, constant = own.label, symbols.constant
         self.mass = own.mass
-        self.inverse = symbols.reciprocal_constant(
-            f"{label}_inverse_joint_inertia", own.about_joint(symbols), "1/(kg m^2)", "1 / (I + m |c|^2)"
-        )
+        self.inverse = own.inverse_about_joint(symbols)
         ratio = constant(f"{label}_mass_ratio", own.mass * self.inverse, "1/m^2", "m / (I + m |c|^2)")
         self.angular_response = (ZERO, ratio)
         what = "articulated inertia at the joint"

@@ -15,6 +15,7 @@ from .equations_of_motion import EquationsOfMotion
 from .inputs import CONFIGURATION, STATE, TARGETS, Inputs
 from .linear_algebra import ldlt_solve, matrix_times
 from .reduced_dynamics import ReducedDynamics, generalized_matrices
+from .rigid_capture import RigidCapture
 from .signatures import Family, Function, Section, matrix, smallest_pivot, vector
 
 # Products in G and in its factorization: with more of them loops are not slower than single assignments, which leave
@@ -91,9 +92,7 @@ def full_impact(equations: EquationsOfMotion, inputs: Inputs) -> Function:
     velocity = ca.vertcat(inputs.base_twist, inputs.joint_rates)
     full_sections = [Section("mass matrix", mass), Section("end-effector Jacobian", jacobian)]
     g, h, impact = impact_equations(jacobian, mass, matrix_times(mass, velocity), inputs)
-    # from the last links to the base, small pivots first
-    order = [*reversed(range(3, 3 + equations.symbols.joints)), 1, 2, 0]
-    after, pivot, solution = ldlt_solve(equations.symbols, g, h, order)
+    capture = RigidCapture(equations, inputs)
     matrix_text = "G, symmetric, row-major: mass matrix of the merged robot"
     base_text = "[omega, vx, vy] of the base COM, inertial axes"
     return Function(
@@ -105,11 +104,11 @@ def full_impact(equations: EquationsOfMotion, inputs: Inputs) -> Function:
         [
             matrix("impact_matrix", "kg m^2, kg m, kg", matrix_text, g),
             vector("impact_momentum", "N m s, N s, N s, then N m s", "H, base then joints", h),
-            vector("base_twist_after", "rad/s, m/s, m/s", base_text, after[:3]),
-            vector("joint_rates_after", "rad/s", "arm by arm", after[3:]),
-            smallest_pivot(pivot),
+            vector("base_twist_after", "rad/s, m/s, m/s", base_text, capture.velocity[:3]),
+            vector("joint_rates_after", "rad/s", "arm by arm", capture.velocity[3:]),
+            smallest_pivot(capture.smallest_pivot),
         ],
-        [*full_sections, *impact, *solution],
+        [*full_sections, *impact, *capture.sections],
     )
 
 

@@ -10,6 +10,7 @@ import casadi as ca
 
 from .articulated_inertia import ArticulatedInertia
 from .eliminated_arm import EliminatedArm
+from .free_base import FreeBase
 from .inputs import Inputs
 from .plane_vectors import ZERO, ZERO_VECTOR, Vector, add, dot, perpendicular, rotation, scale, subtract
 from .signatures import Section
@@ -31,41 +32,28 @@ class Mobility:
         base_rotation = rotation(inputs.base_pose[0])
         self.arms = [EliminatedArm(symbols, arm, inputs, base_rotation) for arm in symbols.arms]
         self.levers = [perpendicular(arm.mount) for arm in self.arms]
-        inertia = ArticulatedInertia(symbols.base_mass, ZERO, symbols.base_mass)
+        self.base = FreeBase(symbols, [(arm.mount, arm.inertia) for arm in self.arms])
+        self.inverse = self._inverse()
         self.centripetal, self.centripetal_moment = ZERO_VECTOR, ZERO
-        coupling, pivot = ZERO_VECTOR, symbols.base_inertia
         for arm, lever in zip(self.arms, self.levers, strict=True):
-            along, across = arm.inertia.times(arm.mount), arm.inertia.times(lever)
-            inertia = inertia.plus(arm.inertia)
-            coupling, pivot = add(coupling, across), pivot + dot(lever, across)
+            along = arm.inertia.times(arm.mount)
             self.centripetal = add(self.centripetal, along)
             self.centripetal_moment = self.centripetal_moment + dot(lever, along)
-        self.inverse = self._inverse(inertia, coupling, pivot)
         self.mount_responses = [self._mount_response(lever) for lever in self.levers]
         self._set_moments()
         self._set_rates()
 
-    def _inverse(self, inertia: ArticulatedInertia, coupling: Vector, pivot: ca.SX) -> list[list[ca.SX]]:
-        """H by elimination of alpha, and Cramer's rule."""
-        inverse_pivot = self.symbols.reciprocal(pivot)
-        x, y = response = scale(inverse_pivot, coupling)
-        xx, xy = inertia.xx - coupling[0] * x, inertia.xy - coupling[0] * y
-        yy = inertia.yy - coupling[1] * y
-        self.diagonal = xx * yy
-        self.determinant = self.diagonal - xy * xy
-        factor = self.symbols.reciprocal(self.determinant)
-        linear = ArticulatedInertia(yy * factor, -(xy * factor), xx * factor)
-        both = linear.times(response)
-        angular = inverse_pivot + dot(response, both)
+    def _inverse(self) -> list[list[ca.SX]]:
+        """H."""
+        base, factor = self.base, self.base.determinant_inverse
+        linear = ArticulatedInertia(base.inertia.yy * factor, -(base.inertia.xy * factor), base.inertia.xx * factor)
+        both = linear.times(base.response)
+        angular = base.pivot_inverse + dot(base.response, both)
         return [
             [angular, -both[0], -both[1]],
             [-both[0], linear.xx, linear.xy],
             [-both[1], linear.xy, linear.yy],
         ]
-
-    def smallest_pivot(self) -> ca.SX:
-        """As that of `forward_dynamics.py`, for the base COM in place of a mount."""
-        return self.determinant / self.diagonal
 
     def _mount_response(self, lever: Vector) -> list[Vector]:
         """Rows [alpha, a_x, a_y] of the base's response to a force at a mount, H [(z x m)^T; 1]."""
@@ -139,7 +127,13 @@ class Mobility:
     def sections(self) -> list[Section]:
         """The parts that depend on the configuration alone."""
         arms = [section for arm in self.arms for section in arm.sections]
-        base = [*self.inverse, self.mount_responses, self.centripetal, self.centripetal_moment, self.smallest_pivot()]
+        base = [
+            *self.inverse,
+            self.mount_responses,
+            self.centripetal,
+            self.centripetal_moment,
+            self.base.smallest_pivot(),
+        ]
         return [
             *arms,
             Section("base, mobility", base),

@@ -22,6 +22,10 @@ class RigidBodyInertia:
         text = "I + m |c|^2, about the joint"
         return symbols.constant(f"{self.label}_joint_inertia", inertia, "kg m^2", text)
 
+    def inverse_about_joint(self, symbols: Symbols) -> ca.SX:
+        name, text = f"{self.label}_inverse_joint_inertia", "1 / (I + m |c|^2)"
+        return symbols.reciprocal_constant(name, self.about_joint(symbols), "1/(kg m^2)", text)
+
     def first_moment(self, symbols: Symbols) -> Vector:
         return (
             symbols.constant(f"{self.label}_first_moment_x", self.mass * self.com[0], "kg m", "m c_x"),

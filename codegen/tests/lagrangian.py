@@ -32,6 +32,11 @@ def smallest_pivot(matrix: np.ndarray, order: list[int]) -> float:
     return min(np.diag(np.linalg.cholesky(permuted)) ** 2 / np.diag(permuted), default=1.0)
 
 
+def last_pivot(inverse: np.ndarray) -> float:
+    """1 / (A_yy A^-1_yy) of a 2 x 2 matrix A by its inverse: its last pivot relative to its diagonal entry."""
+    return 1 / (np.linalg.inv(inverse)[1, 1] * inverse[1, 1])
+
+
 class Lagrangian:
     """All functions of a generated model for one layout, by name: inputs by name to outputs by name."""
 
@@ -149,8 +154,7 @@ class State:
         yaw = self.inputs["base_pose"][0]
         to_base = np.array([[np.cos(yaw), np.sin(yaw)], [-np.sin(yaw), np.cos(yaw)]])
         jacobian = to_base @ self.values["mount_jacobian"]
-        mobility = jacobian @ solve(self.mass, jacobian.T)
-        return 1 / (np.linalg.inv(mobility)[1, 1] * mobility[1, 1])
+        return last_pivot(jacobian @ solve(self.mass, jacobian.T))
 
     def capture(self, inertia: np.ndarray, jacobian: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """(G, H) of the paper's (16) with J_t's sign right: v_contact = v + omega x r."""
@@ -180,5 +184,5 @@ class State:
             "impact_momentum": h,
             "base_twist_after": after[:3],
             "joint_rates_after": after[3:],
-            "smallest_pivot": smallest_pivot(g, [*reversed(range(3, self.robot.size)), 1, 2, 0]),
+            "smallest_pivot": last_pivot(solve(g, np.eye(self.robot.size))[1:3, 1:3]),
         }

@@ -21,7 +21,7 @@ DEGREES = {
     "mass_matrix": 2,  # as many entries
     "reduced_dynamics": 2,  # as many entries of the generalized inertia
     "generalized_jacobian": 2,  # every arm's composite bodies contribute to every column
-    "full_impact": 3,  # LDL^T of each arm's block, which is dense; the arms meet at the base alone
+    "full_impact": 2,  # as many entries of the matrix; velocities by one inward and one outward step per link
     "reduced_impact": 3,  # LDL^T of G, which is dense across the arms too
 }
 FORWARD = [name for name in DEGREES if name.startswith("forward_dynamics")]

@@ -19,7 +19,7 @@ const GROWTH: [(&str, &str, &str); 6] = [
         "every end effector times every joint",
     ),
     ("`reduced_dynamics`", "quadratic in all links", "the entries of the generalized inertia"),
-    ("`full_impact`", "cubic in the links of an arm, linear in the arms", "LDLᵀ of an arm's block, which is dense"),
+    ("`full_impact`", "linear; quadratic in the links of an arm with its matrix", "articulated bodies, as forward dynamics; the matrix has the entries of an arm's block"),
 ];
 
 /// Markdown.
