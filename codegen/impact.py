@@ -3,7 +3,8 @@
 The contact point of a target has the velocity v + omega x r, so that J_t = [[1, 0, 0], [-r_y, 1, 0], [r_x, 0, 1]] per
 target in eq. (5); the print has the cross-product matrix of r with the other sign. After the capture, t_tf = K v with
 K = J_t^-1 J, eqs. (13) and (14). The momentum balance of eqs. (10) and (11) then reads G v_f = H, eq. (15). It is
-exact in the full coordinates, where J, I and θ̇ are [J_be J_me], M and v of eq. (1).
+exact in the full coordinates, where J, I and θ̇ are [J_be J_me], M and v of eq. (1); `rigid_capture.py` solves it there
+body by body.
 
 In the reduced coordinates all joints are coupled, and single assignments grow with their cube. Above a size a module
 computes eqs. (15) and (16) in loops, from I and J, which the function then has as matrices.

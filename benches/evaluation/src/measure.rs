@@ -10,7 +10,6 @@ use planar_build::prove::generic::Generic;
 use planar_capture::control::ProportionalDerivative;
 use planar_capture::dynamics::{ForwardDynamics, Impact, ReducedDynamics};
 use planar_capture::error::Error;
-use planar_capture::formulation::derivative;
 use planar_capture::generated::dual_arm_3r::{FullImpact, Model, ReducedImpact};
 use planar_capture::integrate::RungeKutta4;
 use planar_capture::owned::RobotState;
@@ -205,8 +204,7 @@ fn library_steps(model: &Model<f64>) -> f64 {
             x = start;
         }
         count += 1;
-        let equation = |time, x: &[f64], rate: &mut [f64]| derivative(model, &mut law, time, x, rate, &mut torques);
-        integrator.step(0.0, STEP, &mut x, equation).expect("a regular state");
+        integrator.robot_step(model, &mut law, 0.0, STEP, &mut x, &mut torques).expect("a regular state");
     });
     black_box(x);
     time

@@ -5,7 +5,6 @@ use planar_build::graph;
 use planar_capture::batch::{Accelerations, Batch, States, Status};
 use planar_capture::control::ProportionalDerivative;
 use planar_capture::dynamics::{ForwardDynamics, Impact};
-use planar_capture::formulation::derivative;
 use planar_capture::generated::dual_arm_3r::{JOINTS, Model};
 use planar_capture::integrate::RungeKutta4;
 use planar_capture::state::{Forces, State, vector_length};
@@ -114,9 +113,7 @@ fn steps(model: &Model<f64>, calls: u32) -> Result<(), Problem> {
     };
     let mut torques = [0.0; JOINTS];
     for _ in 0..calls {
-        let equation =
-            |time, x: &[f64], rate: &mut [f64]| derivative(black_box(model), &mut law, time, x, rate, &mut torques);
-        integrator.step(0.0, 1e-4, &mut vector, equation)?;
+        integrator.robot_step(black_box(model), &mut law, 0.0, 1e-4, &mut vector, &mut torques)?;
     }
     black_box(vector);
     Ok(())

@@ -23,7 +23,7 @@ macro_rules! implement_dynamics {
             use $crate::state::{Forces, State};
             use $crate::target::{LinkInertia, Target};
             use $crate::validate::{
-                all_finite, array, array_mut, finite, finite_configuration, finite_joint_arrays, finite_target,
+                all_finite, are_regular_and_finite, array, array_mut, finite, finite_configuration, finite_joint_arrays, finite_target,
                 is_regular_and_finite, joint_arrays, pivot, rows_mut, store, store_rows,
             };
 
@@ -76,8 +76,9 @@ macro_rules! implement_dynamics {
                     *bias = result.generalized_bias;
                     *jacobian = result.generalized_jacobian;
                     let pivot = result.smallest_pivot;
-                    let numbers: [&[T]; 5] = [angles, rates, bias, jacobian.as_flattened(), inertia.as_flattened()];
-                    if !is_regular_and_finite(pivot, numbers) {
+                    // the linear rows of the Jacobian depend on all angles, the bias on all rates and what is in the angular rows
+                    let linear = jacobian.as_chunks::<3>().0.iter().map(|arm| arm[1..].as_flattened());
+                    if !are_regular_and_finite(pivot, linear, [bias, inertia.as_flattened()]) {
                         let found = objection::to_reduced_dynamics(angles, rates, pivot, inertia, bias, jacobian);
                         return Err(found.error());
                     }

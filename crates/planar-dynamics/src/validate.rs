@@ -152,8 +152,26 @@ pub fn is_regular_and_finite<T: Real, const N: usize>(smallest: T, slices: [&[T]
     if cfg!(not(target_arch = "arm")) {
         return is_regular(smallest) && all_finite(slices);
     }
-    let unless_finite = |sum, values: &[T]| values.iter().fold(sum, |sum, value| sum + *value * T::ZERO);
     is_regular(slices.into_iter().fold(smallest, unless_finite))
+}
+
+/// As [`is_regular_and_finite`], of parts, too, whose number the caller has no name for.
+#[inline]
+pub fn are_regular_and_finite<'a, T: Real + 'a, const N: usize>(
+    smallest: T,
+    parts: impl Iterator<Item = &'a [T]>,
+    slices: [&[T]; N],
+) -> bool {
+    if cfg!(not(target_arch = "arm")) {
+        return parts.fold(is_regular(smallest), |all, part| all & all_finite([part])) && all_finite(slices);
+    }
+    is_regular_and_finite(parts.fold(smallest, unless_finite), slices)
+}
+
+/// The sum with products that are 0, or none with a number that is not finite.
+#[inline]
+fn unless_finite<T: Real>(sum: T, values: &[T]) -> T {
+    values.iter().fold(sum, |sum, value| sum + *value * T::ZERO)
 }
 
 /// [`Error::Singular`] unless the smallest relative pivot exceeds 8 ε.

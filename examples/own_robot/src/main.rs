@@ -5,7 +5,6 @@
 use planar_capture::control::{Control, ProportionalDerivative, ZeroTorque};
 use planar_capture::dynamics::{Kinematics, Merge, MomentumAndEnergy};
 use planar_capture::error::Error;
-use planar_capture::formulation::derivative;
 use planar_capture::impact::{self, RigidImpactOutput};
 use planar_capture::integrate::RungeKutta4;
 use planar_capture::state::{State, vector_length};
@@ -101,7 +100,7 @@ fn run(
     let mut integrator = RungeKutta4::new(&mut workspace)?;
     let mut time = 0.0;
     while time < duration {
-        integrator.step(time, STEP, x, |t, x, rate| derivative(robot, law, t, x, rate, &mut torques))?;
+        integrator.robot_step(robot, law, time, STEP, x, &mut torques)?;
         time += STEP;
     }
     Ok(())

@@ -5,7 +5,6 @@ use crate::Real;
 use crate::robot::{Robot, RobotState};
 use planar_capture::control::{Control, ProportionalDerivative, SampledControl};
 use planar_capture::error::Error;
-use planar_capture::formulation::derivative;
 use planar_capture::generated::dual_arm_3r::JOINTS;
 use planar_capture::integrate::RungeKutta4;
 use planar_capture::state::{State, vector_length};
@@ -58,7 +57,7 @@ fn advanced(
     let mut x = [0.0; LENGTH];
     state.view().write(&mut x)?;
     let mut integrator = RungeKutta4::new(&mut workspace)?;
-    integrator.step(0.0, step, &mut x, |t, x, rate| derivative(robot, &mut law, t, x, rate, &mut torques))?;
+    integrator.robot_step(robot, &mut law, 0.0, step, &mut x, &mut torques)?;
     let after = State::from_vector(&x, JOINTS)?;
     let (mut joint_angles, mut joint_rates) = ([0.0; JOINTS], [0.0; JOINTS]);
     joint_angles.copy_from_slice(after.joint_angles);

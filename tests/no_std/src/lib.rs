@@ -286,7 +286,7 @@ fn step(
     let mut workspace = [0.0; 3 * LENGTH];
     let mut torques = [0.0; JOINTS];
     let mut integrator = RungeKutta4::new(&mut workspace)?;
-    integrator.step(time, 0.005, x, |t, x, rate| derivative(model, law, t, x, rate, &mut torques))
+    integrator.robot_step(model, law, time, 0.005, x, &mut torques)
 }
 
 /// Room for both tips on one body: six rows.

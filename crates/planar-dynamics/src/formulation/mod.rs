@@ -6,7 +6,6 @@
 //! use planar_capture::generated::dual_arm_3r::{JOINTS, Model};
 //! use planar_dynamics::control::ZeroTorque;
 //! use planar_dynamics::dynamics::MomentumAndEnergy;
-//! use planar_dynamics::formulation::derivative;
 //! use planar_dynamics::integrate::RungeKutta4;
 //! use planar_dynamics::state::{State, vector_length};
 //!
@@ -18,9 +17,7 @@
 //! start.write(&mut x)?;
 //! let mut integrator = RungeKutta4::new(&mut workspace)?;
 //! for step in 0..100 {
-//!     integrator.step(0.01 * f64::from(step), 0.01, &mut x, |time, x, rate| {
-//!         derivative(&robot, &mut ZeroTorque, time, x, rate, &mut torques)
-//!     })?;
+//!     integrator.robot_step(&robot, &mut ZeroTorque, 0.01 * f64::from(step), 0.01, &mut x, &mut torques)?;
 //! }
 //! // without torques the kinetic energy stays as it was
 //! let energy = |state: &State<'_, f64>| MomentumAndEnergy::momentum(&robot, state).map(|all| all.kinetic_energy);
@@ -62,15 +59,30 @@ pub fn derivative<T: Real, M: Model<T> + ?Sized>(
     rate: &mut [T],
     torques: &mut [T],
 ) -> Result<(), Error> {
+    length("state vector", x.len(), rate.len())?;
+    let StateVector { positions: velocities, rates, work } = split_mut(rate)?;
+    accelerations(model, control, time, x, rates, work, torques)?;
+    copy(split(x)?.rates, velocities);
+    Ok(())
+}
+
+/// The part of [`derivative`] that the equations of motion give: accelerations, and power and base torque of the actuators.
+#[inline]
+pub(crate) fn accelerations<T: Real, M: Model<T> + ?Sized>(
+    model: &M,
+    control: &mut (impl Control<T, M> + ?Sized),
+    time: T,
+    x: &[T],
+    rates: &mut [T],
+    work: &mut [T; 3],
+    torques: &mut [T],
+) -> Result<(), Error> {
     // by every stage of a loop
     let model = read_again(model);
     let joints = model.joints();
-    length("state vector", x.len(), rate.len())?;
     let state = State::from_vector(x, joints)?;
     control.joint_torques(time, model, &state, torques)?;
-    let StateVector { positions: velocities, rates: accelerations, work } = split_mut(rate)?;
-    copy(split(x)?.rates, velocities);
-    let accelerations = coordinates_mut(accelerations, joints)?;
+    let accelerations = coordinates_mut(rates, joints)?;
     accelerations.bodies.as_flattened_mut().fill(T::ZERO);
     let base_torque = control.base_torque().map(|base| base.torque);
     let base_wrench = base_torque.map(|torque| [torque, T::ZERO, T::ZERO]);

@@ -1,9 +1,13 @@
 //! The classical Runge–Kutta method of fourth order.
 
+use crate::control::Control;
+use crate::dynamics::Model;
 use crate::error::Error;
+use crate::formulation::accelerations;
 use crate::linear::{add_scaled, copy};
 use crate::read_again::{from_memory, read_again};
 use crate::scalar::Real;
+use crate::state::{StateVector, split, split_mut};
 use crate::validate::length;
 
 /// ẋ = f(t, x) by fourth-order Runge–Kutta steps; the global error is O(step⁴).
@@ -54,16 +58,62 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
             [(T::ZERO, T::ONE, half), (half, two, half), (half, two, step), (step, T::ONE, T::ZERO)]
         {
             derivative(time + at, stage, slope)?;
-            let slope = from_memory(slope);
-            let places = sum.iter_mut().zip(stage.iter_mut());
-            for ((sum, stage), (x, slope)) in places.zip(x.iter().zip(slope.iter())) {
-                *sum += weight * *slope;
-                *stage = *x + next * *slope;
-            }
+            advance(sum, stage, x, from_memory(slope), weight, next);
         }
         // not kept from the last stage
         read_again(&mut *x);
         add_scaled(x, step / T::constant(6.0), sum);
         Ok(())
+    }
+
+    /// As [`step`](Self::step) of [`derivative`](crate::formulation::derivative), with its bits: a step of a robot and free bodies
+    /// under a control law. The slopes of the positions are not copied, they are the rates of the stage. `torques` (joints) holds
+    /// those of the last stage afterwards.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    #[inline]
+    pub fn robot_step<M: Model<T> + ?Sized>(
+        &mut self,
+        model: &M,
+        control: &mut (impl Control<T, M> + ?Sized),
+        time: T,
+        step: T,
+        x: &mut [T],
+        torques: &mut [T],
+    ) -> Result<(), Error> {
+        let Self { slope, sum, stage } = self;
+        length("state vector", slope.len(), x.len())?;
+        let half = step * T::constant(0.5);
+        let two = T::constant(2.0);
+        // number by number: where the compiler knows that they are zeros and copies, it calls functions for memory, which take
+        // up to ten instructions for each
+        let zero = read_again(T::ZERO);
+        for ((sum, stage), x) in sum.iter_mut().zip(stage.iter_mut()).zip(x.iter()) {
+            (*sum, *stage) = (zero, *x - zero);
+        }
+        let StateVector { rates: slopes, work: work_slopes, .. } = split_mut(slope)?;
+        for (at, weight, next) in
+            [(T::ZERO, T::ONE, half), (half, two, half), (half, two, step), (step, T::ONE, T::ZERO)]
+        {
+            accelerations(model, control, time + at, stage, slopes, work_slopes, torques)?;
+            let x = read_again(&*x).get(..sum.len()).unwrap_or_default();
+            let (sum, x, stage) = (split_mut(sum)?, split(x)?, split_mut(stage)?);
+            advance(sum.positions, stage.positions, x.positions, stage.rates, weight, next);
+            advance(sum.rates, stage.rates, x.rates, from_memory(slopes), weight, next);
+            advance(sum.work, stage.work, x.work, work_slopes, weight, next);
+        }
+        let x = read_again(x).get_mut(..sum.len()).unwrap_or_default();
+        add_scaled(x, step / T::constant(6.0), sum);
+        Ok(())
+    }
+}
+
+/// Adds the weighted slopes to the sums, and takes the next stage from them.
+#[inline]
+fn advance<T: Real>(sum: &mut [T], stage: &mut [T], x: &[T], slopes: &[T], weight: T, next: T) {
+    for ((sum, stage), (x, slope)) in sum.iter_mut().zip(stage).zip(x.iter().zip(slopes)) {
+        *sum += weight * *slope;
+        *stage = *x + next * *slope;
     }
 }

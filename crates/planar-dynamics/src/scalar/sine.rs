@@ -104,8 +104,8 @@ fn turned_f32(x: f32, quadrant: u32) -> (f32, f32) {
 
 macro_rules! sines {
     ($float:ident, $bits:ident, $coefficients:expr, $turned:ident, $reduce_near:ident, $near:ident, $reduce_far:ident,
-     $any:ident, $one:ident, $sin_cos:ident, $near_pair:ident, $sin_cos_pair:ident, $single:ident, $pair:ident,
-     $error:literal) => {
+     $any:ident, $one:ident, $near_one:ident, $sin_cos:ident, $near_pair:ident, $has_pairs:literal, $sin_cos_pair:ident,
+     $single:ident, $pair:ident, $error:literal) => {
         /// Sine and cosine. By the convention of C, up to four numbers come back in registers; by that of Rust, words do.
         #[derive(Clone, Copy, Debug)]
         #[repr(C)]
@@ -172,7 +172,13 @@ macro_rules! sines {
         pub fn $sin_cos_pair(first: $float, second: $float) -> $pair {
             // here, so that far angles need neither the frame of near ones nor one of their own
             let is_near = first.abs() + second.abs() <= $coefficients.furthest;
-            if is_near { $near_pair(first, second) } else { $pair { first: $any(first).0, second: $any(second).0 } }
+            if !is_near {
+                $pair { first: $any(first).0, second: $any(second).0 }
+            } else if $has_pairs || cfg!(not(target_arch = "arm")) {
+                $near_pair(first, second)
+            } else {
+                $pair { first: $near_one(first).0, second: $near_one(second).0 }
+            }
         }
 
         /// Of angles that are not far.
@@ -180,6 +186,12 @@ macro_rules! sines {
         #[cfg_attr(not(target_arch = "arm"), inline)]
         extern "C" fn $near_pair(first: $float, second: $float) -> $pair {
             $pair { first: $near(first).into(), second: $near(second).into() }
+        }
+
+        /// Of an angle that is not far: where 16 registers are all, one after the other needs no frame, and not more instructions.
+        #[inline(never)]
+        extern "C" fn $near_one(angle: $float) -> $single {
+            $single($near(angle).into())
         }
     };
 }
@@ -194,8 +206,10 @@ sines!(
     reduce_f64,
     any_f64,
     one_f64,
+    near_one_f64,
     sin_cos_f64,
     near_pair_f64,
+    false,
     sin_cos_pair_f64,
     SingleF64,
     PairF64,
@@ -211,8 +225,10 @@ sines!(
     reduce_f32,
     any_f32,
     one_f32,
+    near_one_f32,
     sin_cos_f32,
     near_pair_f32,
+    true,
     sin_cos_pair_f32,
     SingleF32,
     PairF32,

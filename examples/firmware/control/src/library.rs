@@ -7,7 +7,6 @@ use crate::states::Inputs;
 use planar_capture::control::{Control, ProportionalDerivative, SampledControl, ZeroTorque};
 use planar_capture::dynamics::{ForwardDynamics, Impact, Merge, ReducedDynamics};
 use planar_capture::error::Error;
-use planar_capture::formulation::derivative;
 use planar_capture::generated::dual_arm_3r::{ARMS, JOINTS, Model, Parameters};
 use planar_capture::impact::{self, RigidImpactOutput};
 use planar_capture::integrate::RungeKutta4;
@@ -26,7 +25,7 @@ const LENGTH: usize = vector_length(JOINTS);
 pub fn capture(record: &mut Record) -> Result<(), Error> {
     let mut record = Writer(record);
     let mut robot = Model::<Real>::default();
-    let mut x = [0.0; LENGTH];
+    let (mut x, mut memory) = ([0.0; LENGTH], Memory::NEW);
     let angles = &mission::INITIAL_ANGLES;
     State { base_pose: [0.0; 3], joint_angles: angles, base_twist: [0.0; 3], joint_rates: &[0.0; JOINTS] }
         .write(&mut x)?;
@@ -42,7 +41,7 @@ pub fn capture(record: &mut Record) -> Result<(), Error> {
     for step in 0..mission::APPROACH_STEPS {
         let time = Real::from(step) * STEP;
         law.begin_step(time, &robot, &State::from_vector(&x, JOINTS)?)?;
-        integrate(&robot, &mut law, time, &mut x)?;
+        integrate(&robot, &mut law, time, &mut x, &mut memory)?;
     }
     record.put(&x[..LENGTH - 3]);
 
@@ -62,10 +61,21 @@ pub fn capture(record: &mut Record) -> Result<(), Error> {
     record.put(impulses.as_flattened());
 
     for step in 0..mission::POST_IMPACT_STEPS {
-        integrate(&robot, &mut ZeroTorque, Real::from(step) * STEP, &mut x)?;
+        integrate(&robot, &mut ZeroTorque, Real::from(step) * STEP, &mut x, &mut memory)?;
     }
     record.put(&x[..LENGTH - 3]);
     Ok(())
+}
+
+/// What a step needs besides the state: it is made once, and is not on the stack of each step.
+#[derive(Debug)]
+struct Memory {
+    workspace: [Real; 3 * LENGTH],
+    torques: [Real; JOINTS],
+}
+
+impl Memory {
+    const NEW: Self = Self { workspace: [0.0; _], torques: [0.0; _] };
 }
 
 #[inline]
@@ -74,10 +84,10 @@ fn integrate(
     law: &mut impl Control<Real, Model<Real>>,
     time: Real,
     x: &mut [Real; LENGTH],
+    memory: &mut Memory,
 ) -> Result<(), Error> {
-    let (mut workspace, mut torques) = ([0.0; 3 * LENGTH], [0.0; JOINTS]);
-    let mut integrator = RungeKutta4::new(&mut workspace)?;
-    integrator.step(time, STEP, x, |t, x, rate| derivative(robot, law, t, x, rate, &mut torques))
+    let mut integrator = RungeKutta4::new(&mut memory.workspace)?;
+    integrator.robot_step(robot, law, time, STEP, x, &mut memory.torques)
 }
 
 /// Set values of all joints.
@@ -99,8 +109,9 @@ pub struct Library;
 /// What the functions take.
 #[derive(Debug)]
 pub struct Prepared {
-    x: [Real; LENGTH],
     targets: [Option<Target<Real>>; ARMS],
+    memory: Memory,
+    held: [Real; JOINTS],
 }
 
 /// What the functions give.
@@ -176,9 +187,9 @@ impl Route for Library {
             generalized_jacobian: [0.0; _],
             target_twists: [[0.0; 3]; _],
             impulses: [[0.0; 3]; _],
-            x: [0.0; _],
+            x,
         };
-        Case { parameters, model, inputs: *inputs, prepared: Prepared { x, targets }, results }
+        Case { parameters, model, inputs: *inputs, prepared: Prepared { targets, memory: Memory::NEW, held: [0.0; _] }, results }
     }
 
     fn capture(record: &mut Record) -> Result<(), &'static str> {
@@ -240,17 +251,15 @@ fn exact_impact_with_impulses(case: &mut Case<Library>) -> bool {
 #[inline(never)]
 fn pd_and_rk4_step(case: &mut Case<Library>) -> bool {
     let Case { model, inputs, prepared, results, .. } = case;
-    results.x = prepared.x;
     let law = ProportionalDerivative {
         trajectory: SetPoint { angles: &inputs.desired_angles, rates: &inputs.desired_rates },
         proportional_gain: &[mission::PROPORTIONAL_GAIN; JOINTS],
         derivative_gain: &[mission::DERIVATIVE_GAIN; JOINTS],
     };
-    let mut held = [0.0; JOINTS];
-    let mut law = SampledControl::new(law, 1, &mut held);
+    let mut law = SampledControl::new(law, 1, &mut prepared.held);
     State::from_vector(&results.x, JOINTS)
         .and_then(|state| law.begin_step(0.0, model, &state))
-        .and_then(|()| integrate(model, &mut law, 0.0, &mut results.x))
+        .and_then(|()| integrate(model, &mut law, 0.0, &mut results.x, &mut prepared.memory))
         .is_ok()
 }
 

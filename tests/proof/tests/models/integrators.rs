@@ -2,8 +2,13 @@
 //! size.
 #![allow(clippy::float_cmp, reason = "steps by powers of two do not round")]
 
+use planar_capture::control::{BaseTorque, Control};
+use planar_capture::dynamics;
 use planar_capture::error::Error;
+use planar_capture::formulation::derivative;
+use planar_capture::generated::dual_arm_3r::{JOINTS, Model};
 use planar_capture::integrate::{Adaptive, GaussLegendre, RungeKutta4, SemiImplicitEuler};
+use planar_capture::state::{State, vector_length};
 use proptest::prelude::*;
 
 /// ẋ = f(t, x).
@@ -107,5 +112,51 @@ fn errors_of_a_derivative_are_returned() {
         }
         assert_eq!(reached, Err(Error::StateVector { found: 7 }), "{last}");
         assert_eq!(calls_after, 1, "the derivative is not asked again");
+    }
+}
+
+/// Torques that depend on time and state, and one on the base.
+struct Swaying {
+    base: Option<BaseTorque<f64>>,
+}
+
+impl<M: dynamics::Model<f64> + ?Sized> Control<f64, M> for Swaying {
+    fn joint_torques(&mut self, time: f64, _: &M, state: &State<'_, f64>, torques: &mut [f64]) -> Result<(), Error> {
+        for (torque, (angle, rate)) in torques.iter_mut().zip(state.joint_angles.iter().zip(state.joint_rates)) {
+            *torque = time.cos() - 3.0 * angle - 0.5 * rate;
+        }
+        Ok(())
+    }
+
+    fn base_torque(&self) -> Option<BaseTorque<f64>> {
+        self.base
+    }
+}
+
+/// With and without a base torque and a free body; the first numbers are zeros of both signs.
+#[test]
+fn a_step_of_a_robot_has_the_bits_of_a_step() {
+    let model = Model::<f64>::default();
+    for (bodies, base) in [(0, None), (1, Some(BaseTorque { torque: 2.5, saturated: false }))] {
+        let length = vector_length(JOINTS) + 6 * bodies;
+        let mut x: Vec<f64> = (0_u32..).map(|k| (f64::from(k) * 0.7).sin()).take(length).collect();
+        (x[0], x[1], x[length / 2]) = (-0.0, 0.0, -0.0);
+        let (mut expected, mut torques) = (x.clone(), [[f64::NAN; JOINTS]; 2]);
+        let (mut workspace, mut other) = (vec![f64::NAN; 3 * length], vec![f64::NAN; 3 * length]);
+        for step in 0..20 {
+            let time = 0.01 * f64::from(step);
+            let (mut law, [of_step, of_robot]) = (Swaying { base }, torques.each_mut());
+            let mut robot = RungeKutta4::new(&mut workspace).expect("a workspace");
+            robot.robot_step(&model, &mut law, time, 0.01, &mut x, of_robot).expect("a regular state");
+            let mut general = RungeKutta4::new(&mut other).expect("a workspace");
+            let slopes = |t, x: &[f64], rate: &mut [f64]| derivative(&model, &mut law, t, x, rate, of_step);
+            general.step(time, 0.01, &mut expected, slopes).expect("a regular state");
+        }
+        let bits = |x: &[f64]| x.iter().map(|number| number.to_bits()).collect::<Vec<_>>();
+        assert_eq!(bits(&x), bits(&expected));
+        assert_eq!(torques[0], torques[1]);
+        let (before, mut short) = (x.clone(), RungeKutta4::new(&mut other[3..]).expect("another length"));
+        assert!(short.robot_step(&model, &mut Swaying { base }, 0.0, 0.01, &mut x, &mut torques[0]).is_err());
+        assert_eq!(x, before);
     }
 }
