@@ -28,8 +28,7 @@ class FreeBase:
             lever = perpendicular(mount)
             across = inertia.times(lever)
             total, coupling, pivot = total.plus(inertia), add(coupling, across), pivot + dot(lever, across)
-        self.symbols, self.coupling, self.pivot = symbols, coupling, pivot
-        self.pivot_inverse = symbols.reciprocal(pivot)
+        self.coupling, self.pivot_inverse = coupling, symbols.reciprocal(pivot)
         x, y = self.response = scale(self.pivot_inverse, coupling)
         self.inertia = ArticulatedInertia(
             total.xx - coupling[0] * x, total.xy - coupling[0] * y, total.yy - coupling[1] * y
@@ -41,14 +40,6 @@ class FreeBase:
     def smallest_pivot(self) -> ca.SX:
         """As that of `forward_dynamics.py`, for the base COM in place of a mount."""
         return self.determinant / self.diagonal
-
-    def relative_pivots(self) -> list[ca.SX]:
-        """All of them, the first two relative to what they are without arms: below 1 where an arm's inertia is not
-        positive."""
-        symbols = self.symbols
-        inertia = symbols.reciprocal_constant("base_inverse_inertia", symbols.base_inertia, "1/(kg m^2)", "1 / I_0")
-        mass = symbols.reciprocal_constant("base_inverse_mass", symbols.base_mass, "1/kg", "1 / m_0")
-        return [self.pivot * inertia, self.inertia.xx * mass, self.smallest_pivot()]
 
     def acceleration(self, force: Vector, moment: ca.SX) -> tuple[ca.SX, Vector]:
         """(alpha, a) from sum b and n - sum (z x m) . b."""

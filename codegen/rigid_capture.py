@@ -53,8 +53,8 @@ class MergedLink:
 class CapturingArm:
     """The bodies of one arm that captures a target, from the last link to the mount.
 
-    ``inertia`` and ``force`` are A and b at the mount. ``relative_pivots`` are those of the bodies relative to what
-    they are without a target and other links, I_P: not below 1 unless a target's mass or inertia is negative.
+    ``inertia`` and ``force`` are A and b at the mount. ``relative_pivot`` is that of the last link, relative to what it
+    is without a target: not below 1 unless the target's mass or inertia is negative.
     """
 
     def __init__(
@@ -73,12 +73,10 @@ class CapturingArm:
         self.bodies: list[MergedLink | EliminatedBody] = [last]
         self.force = subtract(scale(self.alpha_0[0], last.coupling), force)
         owns = [RigidBodyInertia(link.label, link.mass, link.inertia, link.com) for link in links]
-        self.relative_pivots = [last.pivot * owns[-1].inverse_about_joint(symbols)]
+        self.relative_pivot = last.pivot * owns[-1].inverse_about_joint(symbols)
         for k in reversed(range(len(links) - 1)):
             child = Child(positions.link[k], self.bodies[0].inertia)
             body = EliminatedBody(symbols, owns[k], positions.rotation[k], child)
-            if not child.at_joint:
-                self.relative_pivots.append(body.pivot * owns[k].inverse_about_joint(symbols))
             alpha_0 = -dot(body.lever, self.force) * body.inverse
             self.force = add(self.force, scale(alpha_0, body.coupling))
             self.bodies.insert(0, body)
@@ -101,8 +99,8 @@ class CapturingArm:
 
 
 class RigidCapture:
-    """The whole robot: ``velocity`` v' of base and joints, and the ``smallest_pivot`` of G, which is positive definite
-    if all are positive."""
+    """The whole robot: ``velocity`` v' of base and joints, and ``smallest_pivot``, the base's or that of a last link;
+    the others are bounded by the parameters, as those of forward dynamics."""
 
     def __init__(self, equations: EquationsOfMotion, inputs: Inputs) -> None:
         symbols, velocities = equations.symbols, equations.kinematics.velocities
@@ -110,8 +108,7 @@ class RigidCapture:
             CapturingArm(symbols, arm, velocities[index], inputs, index) for index, arm in enumerate(equations.arms)
         ]
         base = FreeBase(symbols, [(arm.positions.mount, arm.inertia) for arm in arms])
-        pivots = [*(pivot for arm in arms for pivot in arm.relative_pivots), *base.relative_pivots()]
-        self.smallest_pivot = reduce(ca.fmin, pivots)
+        self.smallest_pivot = reduce(ca.fmin, [*(arm.relative_pivot for arm in arms), base.smallest_pivot()])
         force, moment = ZERO_VECTOR, ZERO
         for arm in arms:
             force = add(force, arm.force)

@@ -67,6 +67,28 @@ def test_an_arm_costs_the_same_whichever_it_is(name):
     assert len(set(differences(flops))) == 1, flops
 
 
+def flops_of(outputs: tuple[str, ...], name: str, *links: int) -> int:
+    """Operations that these outputs of a function of a regular layout need."""
+    families = derived(regular(*links))["families"]
+    family, function = next((f, g) for f in families for g in f["functions"] if g["name"] == name)
+    wanted = {element for output in function["outputs"] if output["name"] in outputs for element in output["elements"]}
+    count = 0
+    for targets, operation, *operands in reversed([*family["configuration"]["statements"], *function["statements"]]):
+        if wanted.intersection([targets] if isinstance(targets, str) else targets):
+            wanted.update(operand for operand in operands if isinstance(operand, str))
+            count += operation in ("add", "sub", "mul", "div")
+    return count
+
+
+@pytest.mark.parametrize("arms", [1, 2])
+def test_velocities_after_the_exact_impact_are_linear_in_the_links(arms):
+    """The matrix of the merged robot has more entries, and is not needed for them."""
+    velocities = ("base_twist_after", "joint_rates_after", "smallest_pivot")
+    counts = [flops_of(velocities, "full_impact", *[links] * arms) for links in range(3, 8)]
+    steps = set(differences(counts))
+    assert len(steps) == 1 and steps.pop() <= 60 * arms, counts
+
+
 def test_four_arms_of_seven_links_stay_within_bounds():
     """31 degrees of freedom, 29 bodies: linear and quadratic counts, but for the cubic one of the impact."""
     counts = operations(7, 7, 7, 7)

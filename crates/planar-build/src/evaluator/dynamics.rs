@@ -222,8 +222,8 @@ impl Impact<f64> for GraphModel {
         let [pose, angles, twist, rates] = of_state(state);
         let inputs = [pose, angles, twist, rates, &masses, &inertias, &contacts, &twists];
         self.call(self.evaluator().functions.full_impact, &inputs, |results| {
-            pivot("the impact matrix G in full coordinates", results.scalar(4))?;
-            let (base, after) = (triple(results, 2), results.elements(3).collect::<Vec<_>>());
+            pivot("the impact matrix G in full coordinates", results.scalar(2))?;
+            let (base, after) = (triple(results, 0), results.elements(1).collect::<Vec<_>>());
             finite("base_twist_after", &base)?;
             store("joint_rates_after", &after, joint_rates_after)?;
             Ok(base)

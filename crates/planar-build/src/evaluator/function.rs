@@ -100,6 +100,19 @@ impl Function {
         if found == outputs { Ok(()) } else { Err(format!("it has the outputs {found:?}, expected {outputs:?}")) }
     }
 
+    /// The same function of the graph with some of its outputs alone.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub(super) fn with_outputs(&self, graph: &Graph, outputs: &[&str], index: usize) -> Result<Self, String> {
+        let all =
+            graph.families.iter().flat_map(|family| family.functions.iter().map(move |function| (family, function)));
+        let (family, function) = all.into_iter().nth(self.index).ok_or("its function is not in the graph")?;
+        let mut function = function.clone();
+        function.outputs.retain(|output| outputs.contains(&output.name.as_str()));
+        Self::new(graph, family, &function, index)
+    }
+
     /// The program of a function of a family.
     ///
     /// # Errors

@@ -19,6 +19,7 @@ pub struct Evaluator {
     parameters: Vec<Argument>,
     /// From the parameters to all that later programs read besides them.
     pub(super) constants: Program,
+    /// Those of the graph, then the velocities of `full_impact` alone, which need less than all its outputs.
     pub(super) all: Vec<Function>,
     /// Where those of the traits are.
     pub(super) functions: Functions,
@@ -32,6 +33,9 @@ pub struct GraphModel {
     /// What is in the first registers of each function.
     constants: Vec<Vec<f64>>,
 }
+
+/// Of `full_impact`, for the traits.
+const VELOCITIES_AND_PIVOT: [&str; 3] = ["base_twist_after", "joint_rates_after", "smallest_pivot"];
 
 impl Evaluator {
     /// The programs of all functions that a model has.
@@ -58,26 +62,30 @@ impl Evaluator {
             let compiled = Function::new(graph, family, function, index);
             compiled.map_err(|e| GraphError::Format(format!("`{}`: {e}", function.name)))
         });
-        let all = compiled.collect::<Result<Vec<_>, _>>()?;
-        let functions = Functions::new(&structure, &mut |name, inputs, outputs| {
+        let mut all = compiled.collect::<Result<Vec<_>, _>>()?;
+        let mut functions = Functions::new(&structure, &mut |name, inputs, outputs| {
             let found = all.iter().find(|function| function.name() == name).ok_or_else(|| "it is missing".to_owned());
             found
                 .and_then(|function| function.check(inputs, outputs).map(|()| function.index))
                 .map_err(|e| GraphError::Format(format!("`{name}`: {e}")))
         })?;
+        let impact = &all[functions.full_impact];
+        let velocities = impact.with_outputs(graph, &VELOCITIES_AND_PIVOT, all.len()).map_err(GraphError::Format)?;
+        functions.full_impact = velocities.index;
+        all.push(velocities);
         let parameters = graph.parameters.iter().map(Argument::of_parameter).collect();
         Ok(Self { structure, parameters, constants, all, functions })
     }
 
     /// All functions of the graph, in its order.
     pub fn functions(&self) -> impl Iterator<Item = &Function> {
-        self.all.iter()
+        self.all[..self.all.len() - 1].iter()
     }
 
     /// The function of a name.
     #[must_use]
     pub fn function(&self, name: &str) -> Option<&Function> {
-        self.all.iter().find(|function| function.name() == name)
+        self.functions().find(|function| function.name() == name)
     }
 
     /// The structure of the layouts that it has models of.
