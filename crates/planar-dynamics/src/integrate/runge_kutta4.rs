@@ -49,14 +49,10 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
     ) -> Result<(), Error> {
         let Self { slope, sum, stage } = self;
         length("state vector", slope.len(), x.len())?;
-        let half = step * T::constant(0.5);
-        let two = T::constant(2.0);
         sum.fill(T::ZERO);
         copy(x, stage);
-        // one call in the text, which can then be inlined; the last stage is not used
-        for (at, weight, next) in
-            [(T::ZERO, T::ONE, half), (half, two, half), (half, two, step), (step, T::ONE, T::ZERO)]
-        {
+        // one call in the text, which can then be inlined
+        for (at, weight, next) in stages(step) {
             derivative(time + at, stage, slope)?;
             advance(sum, stage, x, from_memory(slope), weight, next);
         }
@@ -84,8 +80,6 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
     ) -> Result<(), Error> {
         let Self { slope, sum, stage } = self;
         length("state vector", slope.len(), x.len())?;
-        let half = step * T::constant(0.5);
-        let two = T::constant(2.0);
         // number by number: where the compiler knows that they are zeros and copies, it calls functions for memory, which take
         // up to ten instructions for each
         let zero = read_again(T::ZERO);
@@ -93,20 +87,25 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
             (*sum, *stage) = (zero, *x - zero);
         }
         let StateVector { rates: slopes, work: work_slopes, .. } = split_mut(slope)?;
-        for (at, weight, next) in
-            [(T::ZERO, T::ONE, half), (half, two, half), (half, two, step), (step, T::ONE, T::ZERO)]
-        {
+        for (at, weight, next) in stages(step) {
             accelerations(model, control, time + at, stage, slopes, work_slopes, torques)?;
             let x = read_again(&*x).get(..sum.len()).unwrap_or_default();
             let (sum, x, stage) = (split_mut(sum)?, split(x)?, split_mut(stage)?);
             advance(sum.positions, stage.positions, x.positions, stage.rates, weight, next);
-            advance(sum.rates, stage.rates, x.rates, from_memory(slopes), weight, next);
+            advance(sum.rates, stage.rates, x.rates, slopes, weight, next);
             advance(sum.work, stage.work, x.work, work_slopes, weight, next);
         }
         let x = read_again(x).get_mut(..sum.len()).unwrap_or_default();
         add_scaled(x, step / T::constant(6.0), sum);
         Ok(())
     }
+}
+
+/// Of each stage: its time after the start, its weight, and how far along its slope the next one is; the last is not used.
+#[inline]
+fn stages<T: Real>(step: T) -> [(T, T, T); 4] {
+    let (half, two) = (step * T::constant(0.5), T::constant(2.0));
+    [(T::ZERO, T::ONE, half), (half, two, half), (half, two, step), (step, T::ONE, T::ZERO)]
 }
 
 /// Adds the weighted slopes to the sums, and takes the next stage from them.
