@@ -19,7 +19,11 @@ const GROWTH: [(&str, &str, &str); 6] = [
         "every end effector times every joint",
     ),
     ("`reduced_dynamics`", "quadratic in all links", "the entries of the generalized inertia"),
-    ("`full_impact`", "linear; quadratic in the links of an arm with its matrix", "articulated bodies, as forward dynamics; the matrix has the entries of an arm's block"),
+    (
+        "`full_impact`",
+        "linear; quadratic in the links of an arm with its matrix",
+        "articulated bodies, as forward dynamics; the matrix has the entries of an arm's block",
+    ),
 ];
 
 /// Markdown.

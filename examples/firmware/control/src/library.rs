@@ -189,7 +189,13 @@ impl Route for Library {
             impulses: [[0.0; 3]; _],
             x,
         };
-        Case { parameters, model, inputs: *inputs, prepared: Prepared { targets, memory: Memory::NEW, held: [0.0; _] }, results }
+        Case {
+            parameters,
+            model,
+            inputs: *inputs,
+            prepared: Prepared { targets, memory: Memory::NEW, held: [0.0; _] },
+            results,
+        }
     }
 
     fn capture(record: &mut Record) -> Result<(), &'static str> {
