@@ -20,8 +20,8 @@ from .symbols import Symbols
 
 
 class EliminatedBody:
-    """One body: ``coupling`` r, ``centripetal`` p, ``centripetal_moment`` h, ``inverse`` 1 / D, ``response`` r / D and
-    ``inertia``, its articulated inertia m + A' - r r^T / D."""
+    """One body: ``coupling`` r, ``centripetal`` p, ``centripetal_moment`` h, ``pivot`` D, ``inverse`` 1 / D,
+    ``response`` r / D and ``inertia``, its articulated inertia m + A' - r r^T / D."""
 
     def __init__(self, symbols: Symbols, own: RigidBodyInertia, rotation: Rotation, child: Child | None) -> None:
         if child is None:
@@ -36,7 +36,8 @@ class EliminatedBody:
             # with constants of its own: forward dynamics may have added a part of the base's mass to those of its body
             alone = replace(own, label=f"{own.label}_alone")
             leaf = TipBody(symbols, alone, ZERO) if child is None else LeafBody(symbols, alone, [], ZERO)
-            self.inverse, self.coupling = leaf.inverse, perpendicular(self.first_moment)
+            self.pivot, self.inverse = self.joint_inertia, leaf.inverse
+            self.coupling = perpendicular(self.first_moment)
             self.centripetal, self.centripetal_moment = self.first_moment, ZERO
             self.response = scale(self.inverse, self.coupling)
             inertia = leaf.inertia.rotate(rotation)
@@ -47,7 +48,8 @@ class EliminatedBody:
         self.coupling = r = add(perpendicular(self.first_moment), across)
         self.centripetal = add(self.first_moment, along)
         self.centripetal_moment = dot(self.lever, along)
-        self.inverse = symbols.reciprocal(self.joint_inertia + dot(self.lever, across))
+        self.pivot = self.joint_inertia + dot(self.lever, across)
+        self.inverse = symbols.reciprocal(self.pivot)
         self.response = scale(self.inverse, r)
         total = ArticulatedInertia(own.mass, ZERO, own.mass).plus(child.inertia)
         self.inertia = ArticulatedInertia(

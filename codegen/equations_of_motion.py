@@ -15,7 +15,8 @@ from .symbols import Symbols
 class EquationsOfMotion:
     """M = [[I_b, I_bm], [I_bm^T, I_m]] and [c_b; c_m] of eq. (1).
 
-    ``inertia`` and ``first_moment`` of the robot are about the base COM.
+    ``inertia`` and ``first_moment`` of the robot are about the base COM; ``augmented_inertia`` is that of the base with
+    the arms' masses at their mounts.
     """
 
     def __init__(self, symbols: Symbols, kinematics: Kinematics) -> None:
@@ -40,13 +41,13 @@ class EquationsOfMotion:
             self.first_moment = add(self.first_moment, at_mount)
             offset = dot(arm.positions.mount, arm.first_moment[0])
             inertia = inertia + (arm.inertia[0] + (offset + offset))
-        augmented_inertia = symbols.constant(
+        self.augmented_inertia = symbols.constant(
             "base_augmented_inertia",
             base_inertia,
             "kg m^2",
             "inertia about the base COM of the base and the arms' masses at their mounts",
         )
-        self.inertia = augmented_inertia + inertia
+        self.inertia = self.augmented_inertia + inertia
 
     @property
     def sections(self) -> list[Section]:

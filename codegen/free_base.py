@@ -28,7 +28,8 @@ class FreeBase:
             lever = perpendicular(mount)
             across = inertia.times(lever)
             total, coupling, pivot = total.plus(inertia), add(coupling, across), pivot + dot(lever, across)
-        self.coupling, self.pivot_inverse = coupling, symbols.reciprocal(pivot)
+        self.coupling, self.pivot = coupling, pivot
+        self.pivot_inverse = symbols.reciprocal(pivot)
         x, y = self.response = scale(self.pivot_inverse, coupling)
         self.inertia = ArticulatedInertia(
             total.xx - coupling[0] * x, total.xy - coupling[0] * y, total.yy - coupling[1] * y
@@ -40,6 +41,12 @@ class FreeBase:
     def smallest_pivot(self) -> ca.SX:
         """As that of `forward_dynamics.py`, for the base COM in place of a mount."""
         return self.determinant / self.diagonal
+
+    def relative_pivots(self, mass: ca.SX, inertia: ca.SX) -> list[ca.SX]:
+        """All three, relative to what they would be if all moved with the base without turning, which is more: how many
+        digits the differences have lost. ``mass`` and ``inertia`` about the base COM are those of such a motion."""
+        xx = self.inertia.xx
+        return [self.pivot / inertia, xx / mass, self.determinant / (xx * mass)]
 
     def acceleration(self, force: Vector, moment: ca.SX) -> tuple[ca.SX, Vector]:
         """(alpha, a) from sum b and n - sum (z x m) . b."""

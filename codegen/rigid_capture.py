@@ -53,8 +53,9 @@ class MergedLink:
 class CapturingArm:
     """The bodies of one arm that captures a target, from the last link to the mount.
 
-    ``inertia`` and ``force`` are A and b at the mount. ``relative_pivot`` is that of the last link, relative to what it
-    is without a target: not below 1 unless the target's mass or inertia is negative.
+    ``inertia`` and ``force`` are A and b at the mount. ``smallest_pivot`` is that of the links: of the last relative to
+    what it is without a target, not below 1 unless the target's mass or inertia is negative; of others relative to what
+    they would be if what is outboard did not turn with them, which is more: how many digits A' has lost.
     """
 
     def __init__(
@@ -73,19 +74,29 @@ class CapturingArm:
         self.bodies: list[MergedLink | EliminatedBody] = [last]
         self.force = subtract(scale(self.alpha_0[0], last.coupling), force)
         owns = [RigidBodyInertia(link.label, link.mass, link.inertia, link.com) for link in links]
-        self.relative_pivot = last.pivot * owns[-1].inverse_about_joint(symbols)
+        relative_pivots = [last.pivot * owns[-1].inverse_about_joint(symbols)]
         for k in reversed(range(len(links) - 1)):
             child = Child(positions.link[k], self.bodies[0].inertia)
             body = EliminatedBody(symbols, owns[k], positions.rotation[k], child)
+            if not child.at_joint:
+                outboard = arm.mass[k + 1] + inputs.target_masses[index]
+                scale_of_pivot = body.joint_inertia + outboard * (links[k].length * links[k].length)
+                relative_pivots.append(body.pivot / scale_of_pivot)
             alpha_0 = -dot(body.lever, self.force) * body.inverse
             self.force = add(self.force, scale(alpha_0, body.coupling))
             self.bodies.insert(0, body)
             self.alpha_0.insert(0, alpha_0)
         self.inertia = self.bodies[0].inertia
+        self.smallest_pivot = reduce(ca.fmin, relative_pivots)
         title = positions.symbols.title
         self.sections = [
             Section(f"{title}, lost momentum", force, moment),
-            Section(f"{title}, merged", [[body.response, *body.inertia.elements] for body in self.bodies], self.force),
+            Section(
+                f"{title}, merged",
+                [[body.response, *body.inertia.elements] for body in self.bodies],
+                self.force,
+                self.smallest_pivot,
+            ),
         ]
 
     def changes(self, a: Vector, base: ca.SX) -> list[ca.SX]:
@@ -99,8 +110,8 @@ class CapturingArm:
 
 
 class RigidCapture:
-    """The whole robot: ``velocity`` v' of base and joints, and ``smallest_pivot``, the base's or that of a last link;
-    the others are bounded by the parameters, as those of forward dynamics."""
+    """The whole robot: ``velocity`` v' of base and joints, and the ``smallest_pivot`` of G, by which rounding shows
+    beside a target that is heavier than all measure."""
 
     def __init__(self, equations: EquationsOfMotion, inputs: Inputs) -> None:
         symbols, velocities = equations.symbols, equations.kinematics.velocities
@@ -108,7 +119,12 @@ class RigidCapture:
             CapturingArm(symbols, arm, velocities[index], inputs, index) for index, arm in enumerate(equations.arms)
         ]
         base = FreeBase(symbols, [(arm.positions.mount, arm.inertia) for arm in arms])
-        self.smallest_pivot = reduce(ca.fmin, [*(arm.relative_pivot for arm in arms), base.smallest_pivot()])
+        mass, inertia = equations.total_mass, equations.augmented_inertia
+        for arm, target_mass in zip(arms, ca.vertsplit(inputs.target_masses), strict=True):
+            mass = mass + target_mass
+            inertia = inertia + target_mass * dot(arm.positions.symbols.mount, arm.positions.symbols.mount)
+        of_arms = [arm.smallest_pivot for arm in arms]
+        self.smallest_pivot = reduce(ca.fmin, [*of_arms, *base.relative_pivots(mass, inertia)])
         force, moment = ZERO_VECTOR, ZERO
         for arm in arms:
             force = add(force, arm.force)
@@ -116,7 +132,7 @@ class RigidCapture:
         alpha, a = base.acceleration(force, moment)
         self.sections = [
             *(section for arm in arms for section in arm.sections),
-            Section("base, change of twist", alpha, a),
+            Section("base, change of twist", self.smallest_pivot, alpha, a),
         ]
         changes = [alpha, *a]
         for arm in arms:

@@ -32,16 +32,11 @@ def smallest_pivot(matrix: np.ndarray, order: list[int]) -> float:
     return min(np.diag(np.linalg.cholesky(permuted)) ** 2 / np.diag(permuted), default=1.0)
 
 
-def last_pivot(inverse: np.ndarray) -> float:
-    """1 / (A_yy A^-1_yy) of a 2 x 2 matrix A by its inverse: its last pivot relative to its diagonal entry."""
-    return 1 / (np.linalg.inv(inverse)[1, 1] * inverse[1, 1])
-
-
 class Lagrangian:
     """All functions of a generated model for one layout, by name: inputs by name to outputs by name."""
 
     def __init__(self, layout: Layout) -> None:
-        self.arms = len(layout.arms)
+        self.layout, self.arms = layout, len(layout.arms)
         self.joints = sum(len(arm.links) for arm in layout.arms)
         self.size = 3 + self.joints
         q, v = ca.SX.sym("q", self.size), ca.SX.sym("v", self.size)
@@ -154,7 +149,8 @@ class State:
         yaw = self.inputs["base_pose"][0]
         to_base = np.array([[np.cos(yaw), np.sin(yaw)], [-np.sin(yaw), np.cos(yaw)]])
         jacobian = to_base @ self.values["mount_jacobian"]
-        return last_pivot(jacobian @ solve(self.mass, jacobian.T))
+        mobility = jacobian @ solve(self.mass, jacobian.T)
+        return 1 / (np.linalg.inv(mobility)[1, 1] * mobility[1, 1])
 
     def capture(self, inertia: np.ndarray, jacobian: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """(G, H) of the paper's (16) with J_t's sign right: v_contact = v + omega x r."""
@@ -184,5 +180,23 @@ class State:
             "impact_momentum": h,
             "base_twist_after": after[:3],
             "joint_rates_after": after[3:],
-            "smallest_pivot": last_pivot(solve(g, np.eye(self.robot.size))[1:3, 1:3]),
+            "smallest_pivot": self.merged_pivot(g),
         }
+
+    def merged_pivot(self, g: np.ndarray) -> float:
+        """Smallest pivot of G, from the last links to the base, relative to its value if all bodies outboard moved
+        without turning; those of last links and of links without length are left out, which are not below 1."""
+        order = [*reversed(range(3, self.robot.size)), 0, 1, 2]
+        pivots = dict(zip(order, np.diag(np.linalg.cholesky(g[np.ix_(order, order)])) ** 2, strict=True))
+        layout, joint, ratios = self.robot.layout, 3, []
+        mass, inertia = layout.base.mass, layout.base.inertia
+        for arm, target in zip(layout.arms, self.inputs["target_masses"], strict=True):
+            outboard = sum(link.mass for link in arm.links) + target
+            mass, inertia = mass + outboard, inertia + outboard * np.dot(arm.mount, arm.mount)
+            for k, link in enumerate(arm.links):
+                outboard -= link.mass
+                if k < len(arm.links) - 1 and link.length != 0:
+                    own = link.inertia + link.mass * np.dot(link.com, link.com)
+                    ratios.append(pivots[joint] / (own + outboard * link.length**2))
+                joint += 1
+        return min([*ratios, pivots[0] / inertia, pivots[1] / mass, pivots[2] / mass])
