@@ -45,6 +45,12 @@ class ArticulatedInertia:
     def times(self, a: Vector) -> Vector:
         return self.xx * a[0] + self.xy * a[1], self.xy * a[0] + self.yy * a[1]
 
+    def balance(self, b: Vector, determinant_inverse: ca.SX) -> Vector:
+        """a of A a + b = 0 by Cramer's rule: a division is on the longest path, and L D L^T has two of them."""
+        x = (self.xy * b[1] - self.yy * b[0]) * determinant_inverse
+        y = (self.xy * b[0] - self.xx * b[1]) * determinant_inverse
+        return x, y
+
     def plus(self, other: "ArticulatedInertia") -> "ArticulatedInertia":
         return ArticulatedInertia(self.xx + other.xx, self.xy + other.xy, self.yy + other.yy)
 

@@ -146,8 +146,7 @@ class ForwardDynamics:
             self.base = TwoMassBody(symbols, ratios, children[0].inertia)
         else:
             self.base = (GeneralBody if children else LeafBody)(symbols, own, children, ZERO)
-        # the articulated inertia of the whole robot at the first mount; its 2 x 2 system is solved by Cramer's rule:
-        # a division is on the longest path, and L D L^T has two of them
+        # the articulated inertia of the whole robot at the first mount
         inertia = self.inertia = self.base.inertia.plus(first.inertia)
         self.diagonal = inertia.xx * inertia.yy
         self.determinant = self.diagonal - inertia.xy * inertia.xy
@@ -183,9 +182,7 @@ class ForwardDynamics:
         if base_wrench:
             b = subtract(b, external)
         # A a + b = 0 at the first mount
-        inertia = self.inertia
-        x = (inertia.xy * b[1] - inertia.yy * b[0]) * self.inverse_determinant
-        y = (inertia.xy * b[0] - inertia.xx * b[1]) * self.inverse_determinant
+        x, y = self.inertia.balance(b, self.inverse_determinant)
         alpha, points = self.base.accelerations((x, y))
         points = [(x, y), *points]
         tangential, centripetal = scale(alpha, perpendicular(self.com)), scale(base_rate_squared, self.com)

@@ -6,8 +6,7 @@ a_m = a + alpha z x m,
     P alpha + c . a = n - sum (z x m) . b,   (m_0 + sum A) a + c alpha = - sum b,
     P = I_0 + sum (z x m) . A (z x m),       c = sum A (z x m).
 
-The rotation is eliminated first. The 2 x 2 system that remains is solved by Cramer's rule: a division is on the longest
-path, and L D L^T has two of them.
+The rotation is eliminated first, which leaves a 2 x 2 system.
 """
 
 import casadi as ca
@@ -50,10 +49,6 @@ class FreeBase:
 
     def acceleration(self, force: Vector, moment: ca.SX) -> tuple[ca.SX, Vector]:
         """(alpha, a) from sum b and n - sum (z x m) . b."""
-        inertia, alpha_0 = self.inertia, moment * self.pivot_inverse
-        x, y = add(force, scale(alpha_0, self.coupling))
-        a = (
-            (inertia.xy * y - inertia.yy * x) * self.determinant_inverse,
-            (inertia.xy * x - inertia.xx * y) * self.determinant_inverse,
-        )
+        alpha_0 = moment * self.pivot_inverse
+        a = self.inertia.balance(add(force, scale(alpha_0, self.coupling)), self.determinant_inverse)
         return alpha_0 - dot(self.response, a), a
