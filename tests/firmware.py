@@ -359,7 +359,8 @@ LTO, C with `-O2 -ffp-contract=off`.
   the most of 900 states with angles up to 1,000 rad; *jitter* is the difference to the least of these. Every finite
   angle is valid; with *far* angles, up to the largest finite number, sines are reduced in integers, which takes longer:
   the most of 100 such states.
-- **Stack** is painted, below the caller's own: the most of all these states.
+- **Stack** is painted, below the caller's own: the most of all these states. The library's integrator works in memory
+  of the caller, three vectors of the state, which the example keeps with the state: 252 bytes in `f32`, 504 in `f64`.
 - **No panic** is proved by the linker: a program with all functions, library and module, links although its panic
   handler calls a function that does not exist. The same for every part of the core (`tests/no_std`). At opt-level 3 and
   s, and z by `--all`; at 3 also with overflow checks, for all but the self test.
