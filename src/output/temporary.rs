@@ -43,9 +43,13 @@ pub(super) fn folder_in(folder: &Path) -> io::Result<TemporaryFolder> {
     loop {
         let folder = builder.tempdir_in(folder).map_err(without_name)?;
         #[cfg(unix)]
-        check_mask(folder.path())?;
+        match check_mask(folder.path()) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => continue, // as below
+            checked => checked?,
+        }
         let lock = match File::open(folder.path()) {
             Ok(lock) => Some(lock),
+            // another process has taken it for a dead one's
             Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
             // a system that opens no folders
             Err(_) => None,
