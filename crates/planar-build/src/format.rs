@@ -229,6 +229,11 @@ impl Graph {
         self.families.iter().flat_map(|family| &family.functions)
     }
 
+    /// The same, each with its family.
+    pub(crate) fn functions_of_families(&self) -> impl Iterator<Item = (&Family, &Function)> {
+        self.families.iter().flat_map(|family| family.functions.iter().map(move |function| (family, function)))
+    }
+
     /// What a function takes besides the configuration, in its order.
     pub(crate) fn inputs_of_call<'a>(&'a self, function: &'a Function) -> impl Iterator<Item = &'a Variable> {
         let names = function.inputs.iter().filter(|name| !["base_pose", "joint_angles"].contains(&name.as_str()));

@@ -105,9 +105,8 @@ impl Function {
     /// # Errors
     /// As [`new`](Self::new).
     pub(super) fn with_outputs(&self, graph: &Graph, outputs: &[&str], index: usize) -> Result<Self, String> {
-        let all =
-            graph.families.iter().flat_map(|family| family.functions.iter().map(move |function| (family, function)));
-        let (family, function) = all.into_iter().nth(self.index).ok_or("its function is not in the graph")?;
+        let found = graph.functions_of_families().nth(self.index);
+        let (family, function) = found.ok_or("its function is not in the graph")?;
         let mut function = function.clone();
         function.outputs.retain(|output| outputs.contains(&output.name.as_str()));
         Self::new(graph, family, &function, index)

@@ -56,9 +56,7 @@ impl Evaluator {
             Program::new(&values, graph.parameters.len(), &outputs?)
         });
         let constants = program.map_err(GraphError::Format)?;
-        let all =
-            graph.families.iter().flat_map(|family| family.functions.iter().map(move |function| (family, function)));
-        let compiled = all.enumerate().map(|(index, (family, function))| {
+        let compiled = graph.functions_of_families().enumerate().map(|(index, (family, function))| {
             let compiled = Function::new(graph, family, function, index);
             compiled.map_err(|e| GraphError::Format(format!("`{}`: {e}", function.name)))
         });

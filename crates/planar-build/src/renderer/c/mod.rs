@@ -70,7 +70,7 @@ impl CModule<'_> {
 
 fn context(graph: &Graph, module: &CModule<'_>) -> Result<Value, String> {
     let joints: usize = graph.layout.arms.iter().map(|arm| arm.links).sum();
-    let families = || graph.families.iter().flat_map(|family| family.functions.iter().map(move |f| (family, f)));
+    let families = || graph.functions_of_families();
     let find = |name: &str| families().find(|(_, function)| function.name == name);
     for name in ["forward_dynamics", "forward_dynamics_with_base_wrench", "end_effector_twists"] {
         find(name).ok_or_else(|| format!("it has no function `{name}`"))?;
