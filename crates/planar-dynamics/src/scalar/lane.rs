@@ -60,9 +60,7 @@ impl<const FUSED: bool> Scalar for Lane<FUSED> {
         let x = quarters.mul_add(third, quarters.mul_add(second, quarters.mul_add(first, angle)));
         let z = x * x;
         let sine = (x * z).mul_add(polynomial(z, DOUBLE.sine), x);
-        let half = Self(0.5) * z;
-        let head = Self::ONE - half;
-        let cosine = head + (z * z).mul_add(polynomial(z, DOUBLE.cosine), (Self::ONE - head) - half);
+        let cosine = z.mul_add(z.mul_add(polynomial(z, DOUBLE.cosine), Self(-0.5)), Self::ONE);
         // exchanged in odd quadrants
         let (sine, cosine, quadrant) = (sine.0.to_bits(), cosine.0.to_bits(), shifted.0.to_bits());
         let exchange = (sine ^ cosine) & (quadrant & 1).wrapping_neg();

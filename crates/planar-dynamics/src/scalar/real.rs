@@ -14,6 +14,12 @@ pub trait Real:
     /// The value as `f64`, for reports.
     fn to_f64(self) -> f64;
 
+    /// The nearest value to an integer.
+    #[must_use]
+    fn from_word(word: u32) -> Self {
+        Self::constant(f64::from(word))
+    }
+
     /// Neither NaN nor infinite.
     fn is_finite(self) -> bool;
 
@@ -54,6 +60,13 @@ macro_rules! float {
             #[allow(clippy::cast_lossless, reason = "f64 to f64 in one of the two")]
             fn to_f64(self) -> f64 {
                 self as f64
+            }
+
+            /// In one instruction, where doubles would take many.
+            #[inline]
+            #[allow(clippy::cast_lossless, clippy::cast_precision_loss, reason = "rounding to the scalar")]
+            fn from_word(word: u32) -> Self {
+                word as $float
             }
 
             #[inline]

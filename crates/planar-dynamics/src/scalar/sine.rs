@@ -63,9 +63,7 @@ fn turned_f64(x: f64, quadrant: u64) -> (f64, f64) {
     let sine = s0 + z * (s1 + z * (s2 + z * (s3 + z * (s4 + z * s5))));
     let cosine = c0 + z * (c1 + z * (c2 + z * (c3 + z * (c4 + z * c5))));
     let sine = x + x * z * sine;
-    let half = 0.5 * z;
-    let head = 1.0 - half;
-    let cosine = head + (((1.0 - head) - half) + z * z * cosine);
+    let cosine = 1.0 + z * (z * cosine - 0.5);
     // exchanged in odd quadrants; where words have 32 bits, one instruction selects what takes several by halves
     if cfg!(target_arch = "arm") {
         let (sine, cosine) = if quadrant & 1 == 0 { (sine, cosine) } else { (cosine, -sine) };
@@ -88,7 +86,7 @@ fn turned_f32(x: f32, quadrant: u32) -> (f32, f32) {
     let [s0, s1, s2] = K.sine;
     let [c0, c1, c2] = K.cosine;
     let sine = x + x * z * (s0 + z * (s1 + z * s2));
-    let cosine = 1.0 - 0.5 * z + z * z * (c0 + z * (c1 + z * c2));
+    let cosine = 1.0 + z * (z * (c0 + z * (c1 + z * c2)) - 0.5);
     if cfg!(target_arch = "arm") {
         let (sine, cosine) = if quadrant & 1 == 0 { (sine, cosine) } else { (cosine, -sine) };
         return if quadrant & 2 == 0 { (sine, cosine) } else { (-sine, -cosine) };

@@ -13,7 +13,7 @@ macro_rules! mul_add {
     };
 }
 macro_rules! near {
-    ($near:ident, $lanes:ident, $bits:ident, $float:ident, $sign:literal, $coefficients:expr, $degree:literal, $cosine:expr) => {
+    ($near:ident, $lanes:ident, $bits:ident, $float:ident, $sign:literal, $coefficients:expr, $degree:literal) => {
         /// (sine, cosine) of angles that are not far from 0, rad, and a mask of the lanes that have others.
         #[inline(always)]
         pub(super) fn $near(angle: $lanes) -> (($lanes, $lanes), $lanes) {
@@ -30,7 +30,7 @@ macro_rules! near {
             let x = mul_add!(-quarters, c, mul_add!(-quarters, b, mul_add!(-quarters, a, angle)));
             let z = x * x;
             let sine = mul_add!(x * z, horner(z, K.sine), x);
-            let cosine = $cosine(z, horner(z, K.cosine));
+            let cosine = mul_add!(z, mul_add!(z, horner(z, K.cosine), splat(-0.5)), $lanes::ONE);
             // exchanged in odd quadrants
             let [sine, cosine, quadrant]: [$bits; 3] = cast([sine, cosine, shifted]);
             let [zero, one, two] = [0, 1, 2].map($bits::splat);
@@ -45,20 +45,14 @@ macro_rules! near {
 
 macro_rules! double {
     ($near:ident, $lanes:ident, $bits:ident) => {
-        near!($near, $lanes, $bits, f64, 62, DOUBLE, 6, |z: $lanes, polynomial: $lanes| {
-            let half = $lanes::splat(0.5) * z;
-            let head = $lanes::ONE - half;
-            head + mul_add!(z * z, polynomial, (($lanes::ONE - head) - half))
-        });
+        near!($near, $lanes, $bits, f64, 62, DOUBLE, 6);
     };
 }
 
 #[cfg(feature = "lanes")]
 macro_rules! single {
     ($near:ident, $lanes:ident, $bits:ident) => {
-        near!($near, $lanes, $bits, f32, 30, SINGLE, 3, |z: $lanes, polynomial: $lanes| {
-            mul_add!(z * z, polynomial, $lanes::ONE - $lanes::splat(0.5) * z)
-        });
+        near!($near, $lanes, $bits, f32, 30, SINGLE, 3);
     };
 }
 

@@ -8,9 +8,13 @@ pub fn constants() -> Value {
     json!({
         "double": coefficients(&DOUBLE, |number| number),
         "single": coefficients(&SINGLE, f64::from),
-        "digits": DIGITS.map(|digits| format!("0x{digits:016x}U")),
-        "digits_single": DIGITS_SINGLE.map(|digits| format!("0x{digits:08x}U")),
+        "digits": words(&DIGITS),
+        "digits_single": words(&DIGITS_SINGLE),
     })
+}
+
+fn words(digits: &[u32]) -> Vec<String> {
+    digits.iter().map(|word| format!("0x{word:08x}U")).collect()
 }
 
 /// Polynomials in z.
