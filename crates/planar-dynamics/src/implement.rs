@@ -79,7 +79,12 @@ macro_rules! implement_dynamics {
                     // the linear rows of the Jacobian depend on all angles, the bias on all rates and what is in the angular rows
                     let linear = jacobian.as_chunks::<3>().0.iter().map(|arm| arm[1..].as_flattened());
                     if !are_regular_and_finite(pivot, linear, [bias, inertia.as_flattened()]) {
-                        let found = objection::to_reduced_dynamics(angles, rates, pivot, inertia, bias, jacobian);
+                        let found = objection::to_joints(angles, rates)
+                            .or(|| objection::to_base_inertia(pivot))
+                            .or(|| objection::to_reduced_dynamics(inertia, bias, jacobian));
+                        *inertia = [[T::ZERO; JOINTS]; JOINTS];
+                        *bias = [T::ZERO; JOINTS];
+                        *jacobian = [[T::ZERO; JOINTS]; 3 * ARMS];
                         return Err(found.error());
                     }
                     Ok(())
@@ -177,8 +182,12 @@ macro_rules! implement_dynamics {
                     *joints = after;
                     // the velocities depend on all numbers but the place of the base
                     if !is_regular_and_finite(result.smallest_pivot, [&base, &after]) {
-                        let ([omega, vx, vy], pivot) = (base, result.smallest_pivot);
-                        let found = objection::to_impact(angles, rates, targets, joints, pivot, omega, vx, vy);
+                        let [omega, vx, vy] = base;
+                        let found = objection::to_joints(angles, rates)
+                            .or(|| objection::to_targets(of_arms))
+                            .or(|| objection::to_impact_matrix(result.smallest_pivot))
+                            .or(|| objection::to_velocities_after(joints, omega, vx, vy));
+                        *joints = [T::ZERO; JOINTS];
                         return Err(found.error());
                     }
                     Ok(base)

@@ -4,6 +4,8 @@
 //! A controller's frame is what counts where memory is scarce: neither an error nor what it would be found in is in it
 //! until there is one. Functions that find one are out of line and small, and set the results to zero.
 
+#![allow(improper_ctypes_definitions, reason = "Rust alone calls these functions")]
+
 use crate::error::Error;
 use crate::scalar::Real;
 use crate::target::Target;
@@ -44,30 +46,40 @@ names! {
     ImpactMatrix "the impact matrix G in full coordinates"
 }
 
-/// The first of a function's numbers that is out of order: its name and place in one word, and the number.
+/// The first of a function's numbers that is out of order: its name and place in one number, and the number itself. By the
+/// convention of C both come back in registers, whatever the scalar is; by that of Rust, no more than two words do.
 #[derive(Clone, Copy, Debug)]
-pub struct Objection<T>(u32, T);
+#[repr(C)]
+pub struct Objection<T>(T, T);
+
+/// The name of what is no objection.
+const _: () = assert!(Name::Result as u8 == 0);
 
 impl<T: Real> Objection<T> {
-    const NONE: Self = Self(Name::Result as u32, T::ZERO);
+    const NONE: Self = Self(T::ZERO, T::ZERO);
 
+    /// As many places as single precision has, with 256 names.
     fn new(name: Name, index: usize, value: T) -> Self {
-        let index = u32::try_from(index).unwrap_or(u32::MAX);
-        Self(index << 8 | name as u32, value)
+        let index = u32::try_from(index).unwrap_or(u32::MAX).min(0xffff);
+        Self(T::from_word(index << 8 | name as u32), value)
     }
 
     /// This, else what another check finds.
-    fn or(self, other: impl FnOnce() -> Self) -> Self {
+    #[must_use]
+    #[inline]
+    pub fn or(self, other: impl FnOnce() -> Self) -> Self {
         if self.0 == Self::NONE.0 { other() } else { self }
     }
 
     /// As an error.
     #[allow(clippy::inline_always, reason = "where nobody looks at it, nothing of it remains")]
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it was a word")]
     #[inline(always)]
     #[must_use]
     pub fn error(self) -> Error {
         let Self(word, value) = self;
-        let (name, index, value) = (word & 0xff, (word >> 8) as usize, value.to_f64());
+        let (word, value) = (word.to_f64() as u32, value.to_f64());
+        let (name, index) = (word & 0xff, (word >> 8) as usize);
         let text = TEXTS.get(name as usize).copied().unwrap_or_default();
         if name >= Name::ArticulatedMass as u32 {
             Error::Singular { what: text, pivot: value, limit: pivot_limit::<T>().to_f64() }
@@ -80,7 +92,7 @@ impl<T: Real> Objection<T> {
 /// The first number that is NaN or infinite.
 #[cold]
 #[inline(never)]
-fn not_finite<T: Real>(name: Name, values: &[T]) -> Objection<T> {
+extern "C" fn not_finite<T: Real>(name: Name, values: &[T]) -> Objection<T> {
     first_not_finite(values).map_or(Objection::NONE, |(index, value)| Objection::new(name, index, value))
 }
 
@@ -93,7 +105,7 @@ fn singular<T: Real>(name: Name, smallest: T) -> Objection<T> {
 /// nothing wrong with it.
 #[cold]
 #[inline(never)]
-pub fn to_base<T: Real>(yaw: T, x: T, y: T, omega: T, vx: T, vy: T) -> Objection<T> {
+pub extern "C" fn to_base<T: Real>(yaw: T, x: T, y: T, omega: T, vx: T, vy: T) -> Objection<T> {
     not_finite(Name::BasePose, &[yaw, x, y]).or(|| not_finite(Name::BaseTwist, &[omega, vx, vy]))
 }
 
@@ -103,7 +115,7 @@ pub fn to_base<T: Real>(yaw: T, x: T, y: T, omega: T, vx: T, vy: T) -> Objection
 #[cold]
 #[inline(never)]
 #[allow(clippy::too_many_arguments, reason = "see above")]
-pub fn to_accelerations<T: Real, const N: usize>(
+pub extern "C" fn to_accelerations<T: Real, const N: usize>(
     joint_angles: &[T; N],
     joint_rates: &[T; N],
     joint_torques: &[T; N],
@@ -140,56 +152,61 @@ pub fn to_accelerations_of<T: Real>(
         .or(|| not_finite(Name::JointAccelerations, joint_accelerations))
 }
 
-/// To reduced dynamics, as [`to_accelerations`].
+/// To angles and rates.
+///
+/// This and the functions below are called one after the other, by a caller that has a frame anyway: arguments beyond four
+/// would be in that frame, and what one function passes on to others in its own.
 #[cold]
 #[inline(never)]
-pub fn to_reduced_dynamics<T: Real, const N: usize, const R: usize>(
-    joint_angles: &[T; N],
-    joint_rates: &[T; N],
-    smallest_pivot: T,
-    generalized_inertia: &mut [[T; N]; N],
-    generalized_bias: &mut [T; N],
-    generalized_jacobian: &mut [[T; N]; R],
-) -> Objection<T> {
-    let objection = not_finite(Name::JointAngles, joint_angles)
-        .or(|| not_finite(Name::JointRates, joint_rates))
-        .or(|| singular(Name::BaseInertia, smallest_pivot))
-        .or(|| not_finite(Name::GeneralizedInertia, generalized_inertia.as_flattened()))
-        .or(|| not_finite(Name::GeneralizedBias, generalized_bias))
-        .or(|| not_finite(Name::GeneralizedJacobian, generalized_jacobian.as_flattened()));
-    *generalized_inertia = [[T::ZERO; N]; N];
-    *generalized_bias = [T::ZERO; N];
-    *generalized_jacobian = [[T::ZERO; N]; R];
-    objection
+pub extern "C" fn to_joints<T: Real, const N: usize>(joint_angles: &[T; N], joint_rates: &[T; N]) -> Objection<T> {
+    not_finite(Name::JointAngles, joint_angles).or(|| not_finite(Name::JointRates, joint_rates))
 }
 
-/// To an impact, as [`to_accelerations`].
+/// To the pivot of reduced dynamics.
+#[inline]
+pub fn to_base_inertia<T: Real>(smallest_pivot: T) -> Objection<T> {
+    singular(Name::BaseInertia, smallest_pivot)
+}
+
+/// To the results of reduced dynamics.
 #[cold]
 #[inline(never)]
-#[allow(clippy::too_many_arguments, reason = "see `to_accelerations`")]
-pub fn to_impact<T: Real, const N: usize>(
-    joint_angles: &[T; N],
-    joint_rates: &[T; N],
-    targets: &[Option<Target<T>>],
-    joint_rates_after: &mut [T; N],
-    smallest_pivot: T,
+pub extern "C" fn to_reduced_dynamics<T: Real, const N: usize, const R: usize>(
+    generalized_inertia: &[[T; N]; N],
+    generalized_bias: &[T; N],
+    generalized_jacobian: &[[T; N]; R],
+) -> Objection<T> {
+    not_finite(Name::GeneralizedInertia, generalized_inertia.as_flattened())
+        .or(|| not_finite(Name::GeneralizedBias, generalized_bias))
+        .or(|| not_finite(Name::GeneralizedJacobian, generalized_jacobian.as_flattened()))
+}
+
+/// To the targets of an impact.
+#[cold]
+#[inline(never)]
+pub extern "C" fn to_targets<T: Real, const N: usize>(targets: &[Option<Target<T>>; N]) -> Objection<T> {
+    targets.iter().flatten().fold(Objection::NONE, |found, target| {
+        found
+            .or(|| not_finite(Name::TargetMassAndInertia, &[target.mass, target.inertia]))
+            .or(|| not_finite(Name::TargetContact, &target.contact))
+            .or(|| not_finite(Name::TargetTwist, &target.twist))
+    })
+}
+
+/// To the pivot of an impact.
+#[inline]
+pub fn to_impact_matrix<T: Real>(smallest_pivot: T) -> Objection<T> {
+    singular(Name::ImpactMatrix, smallest_pivot)
+}
+
+/// To the velocities after an impact; of the base one by one, as those of [`to_base`].
+#[cold]
+#[inline(never)]
+pub extern "C" fn to_velocities_after<T: Real, const N: usize>(
+    joint_rates_after: &[T; N],
     omega: T,
     vx: T,
     vy: T,
 ) -> Objection<T> {
-    let objection = not_finite(Name::JointAngles, joint_angles)
-        .or(|| not_finite(Name::JointRates, joint_rates))
-        .or(|| {
-            targets.iter().flatten().fold(Objection::NONE, |found, target| {
-                found
-                    .or(|| not_finite(Name::TargetMassAndInertia, &[target.mass, target.inertia]))
-                    .or(|| not_finite(Name::TargetContact, &target.contact))
-                    .or(|| not_finite(Name::TargetTwist, &target.twist))
-            })
-        })
-        .or(|| singular(Name::ImpactMatrix, smallest_pivot))
-        .or(|| not_finite(Name::BaseTwistAfter, &[omega, vx, vy]))
-        .or(|| not_finite(Name::JointRatesAfter, joint_rates_after));
-    *joint_rates_after = [T::ZERO; N];
-    objection
+    not_finite(Name::BaseTwistAfter, &[omega, vx, vy]).or(|| not_finite(Name::JointRatesAfter, joint_rates_after))
 }

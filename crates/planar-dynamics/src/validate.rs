@@ -77,7 +77,15 @@ fn not_finite<T: Real>(quantity: &'static str, values: &[T]) -> Result<(), Error
 #[inline]
 pub(crate) fn first_not_finite<T: Real>(values: &[T]) -> Option<(usize, T)> {
     // opaque to the compiler, which would write it out number by number
-    values.iter().copied().enumerate().find(|(_, value)| !black_box(*value).is_finite())
+    let mut index = 0_usize;
+    for value in values {
+        if !black_box(*value).is_finite() {
+            return Some((index, *value));
+        }
+        // wrapping, because as far as the compiler knows it could overflow
+        index = index.wrapping_add(1);
+    }
+    None
 }
 
 /// [`finite`] of all numbers of a state.
