@@ -4,6 +4,7 @@ mod c;
 mod composites;
 mod doc_text;
 mod fused;
+mod halves;
 mod loops;
 mod needed;
 mod pairs;
@@ -16,6 +17,7 @@ pub use c::{CModule, CText, CoSimulation, CoSimulationVariable, Role};
 
 use crate::format::{Family, Function, Graph, Parameter, ReferenceState, Variable};
 use composites::{merged_links, steps};
+use halves::in_halves;
 use pairs::{Names, paired};
 use planar_dynamics::standalone::{IMPACT_EQUATIONS, PARTS};
 use planar_layout::diagnostic::printable;
@@ -148,12 +150,12 @@ fn context(graph: &Graph, module: &Module<'_>) -> Value {
     let joints: usize = links.iter().sum();
     let constants: Vec<&str> = graph.constants.values.iter().map(|constant| constant.name.as_str()).collect();
     let set_up = Scope::parameters(graph, Syntax::Rust).lines(&[], &graph.constants.statements, &constants);
-    let Arithmetic { is_fused, is_paired } = module.arithmetic;
-    let symmetry = if is_paired && !module.standalone { Symmetry::of(graph) } else { Symmetry::default() };
+    let symmetry =
+        if module.arithmetic.is_paired && !module.standalone { Symmetry::of(graph) } else { Symmetry::default() };
     let order = symmetry.side_by_side(&constants);
     let constant = |name: &&str| graph.constants.values.iter().find(|constant| constant.name == *name);
     let families: Vec<_> =
-        graph.families.iter().map(|family| render_family(graph, family, is_fused, &symmetry)).collect();
+        graph.families.iter().map(|family| render_family(graph, family, module, &symmetry)).collect();
     json!({
         "source": printable(module.source),
         "command": printable(module.command),
@@ -184,8 +186,9 @@ fn body(lines: &[String]) -> String {
     indented(&lines.join("\n"), 8).trim_end().to_owned()
 }
 
-fn render_family(graph: &Graph, family: &Family, is_fused: bool, symmetry: &Symmetry) -> Value {
+fn render_family(graph: &Graph, family: &Family, module: &Module<'_>, symmetry: &Symmetry) -> Value {
     let Family { name, description, configuration, functions } = family;
+    let is_fused = module.arithmetic.is_fused;
     let mut symmetry = symmetry.clone();
     let stage = paired(&mut symmetry, &configuration.sections, &configuration.statements, &[], &Names::default());
     let values: Vec<&str> = configuration.values.iter().map(String::as_str).collect();
@@ -203,7 +206,12 @@ fn render_family(graph: &Graph, family: &Family, is_fused: bool, symmetry: &Symm
     };
     let shown: Vec<Value> = fields.iter().map(field).collect();
     let functions: Vec<Value> = (functions.iter())
-        .map(|function| render_function(graph, function, &fields, &names, is_fused, &symmetry))
+        .map(|function| {
+            let mut rendered = render_function(graph, function, &fields, &names, is_fused, &symmetry);
+            rendered["in_one_piece"] =
+                module.standalone.then(|| in_one_piece(graph, family, function, is_fused)).into();
+            rendered
+        })
         .collect();
     let has = |key: &str| functions.iter().any(|function| function[key] == true);
     json!({
@@ -236,18 +244,8 @@ fn render_function(
     if in_loops {
         lines.extend(loops::in_rust(function, &scope, is_fused));
     }
+    lines.extend(result(function, &scope));
     let single = outputs.len() == 1;
-    if single {
-        lines.extend(outputs.iter().map(|output| scope.array(output)));
-    } else {
-        let field = |output: &Variable| {
-            let array = if in_loops { String::new() } else { format!(": {}", scope.array(output)) };
-            format!("    {}{array},", output.name)
-        };
-        lines.push(format!("{} {{", camel_case(name)));
-        lines.extend(outputs.iter().map(field));
-        lines.push("}".to_owned());
-    }
     let bindings = bindings(&lines, "self.model", Syntax::Rust);
     let inputs: Vec<Value> = function.inputs.iter().map(|name| variable(input(graph, name))).collect();
     let call_inputs: Vec<Value> = graph.inputs_of_call(function).map(variable).collect();
@@ -265,6 +263,27 @@ fn render_function(
         "has_pairs": stage.names.has_pairs(),
         "statements": body(&[bindings, lines].concat()),
     })
+}
+
+/// The body of a function that does not go by way of a configuration, where it has halves.
+fn in_one_piece(graph: &Graph, family: &Family, function: &Function, is_fused: bool) -> Option<String> {
+    let lines = in_halves(graph, family, function, is_fused)?;
+    let scope = Scope::constants(graph, Syntax::Rust, is_fused);
+    Some(body(&[lines, result(function, &scope)].concat()))
+}
+
+/// The expression of a function's result.
+fn result(function: &Function, scope: &Scope<'_>) -> Vec<String> {
+    let Function { name, outputs, .. } = function;
+    if let [output] = outputs.as_slice() {
+        return vec![scope.array(output)];
+    }
+    let field = |output: &Variable| {
+        let array = if function.is_in_loops() { String::new() } else { format!(": {}", scope.array(output)) };
+        format!("    {}{array},", output.name)
+    };
+    let fields = outputs.iter().map(field);
+    [format!("{} {{", camel_case(name))].into_iter().chain(fields).chain(["}".to_owned()]).collect()
 }
 
 /// The elements of an output that are computed, with those of the other arms, each once.
