@@ -7,8 +7,9 @@
 use core::f32::consts as single;
 use core::f64::consts as double;
 
-/// The binary digits of 2/π, after 64 zeros; as many as the largest angle needs.
-pub const DIGITS: [u32; 37] = [
+/// The binary digits of 2/π, after 64 zeros: those of the largest angle, and a word more, by which a program that knows of a
+/// sum of powers of two no more than its terms sees that none is missing.
+pub const DIGITS: [u32; 38] = [
     0,
     0,
     0xa2f9_836e,
@@ -46,6 +47,7 @@ pub const DIGITS: [u32; 37] = [
     0x3d07_39f7,
     0x8a52_92ea,
     0x6bfb_5fb1,
+    0x1f8d_5d08,
 ];
 
 /// The same after 32 zeros, for single precision.
