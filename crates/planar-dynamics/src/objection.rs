@@ -2,7 +2,7 @@
 //! code alone.
 //!
 //! A controller's frame is what counts where memory is scarce: neither an error nor what it would be found in is in it
-//! until there is one. Functions that find one are out of line and small, and set the results to zero.
+//! until there is one. Functions that find one are out of line and small. Results are then set to zero.
 
 #![allow(improper_ctypes_definitions, reason = "Rust alone calls these functions")]
 

@@ -5,7 +5,7 @@
 //! with few registers it would else compute the rest of the configuration first, with all of both on the stack.
 
 use super::loops;
-use super::needed::needed;
+use super::needed::{needed, stage};
 use super::statements::{Scope, bindings};
 use super::syntax::Syntax;
 use crate::format::{Family, Function, Graph, Operand, Statement, Variable, section_at};
@@ -72,13 +72,6 @@ fn halves<'a>(family: &'a Family, function: &'a Function) -> Option<[Half<'a>; 2
     let all = stages.into_iter().flat_map(of_stage);
     let (first, second) = all.partition(|(_, statement)| needs(statement) <= Some(boundary));
     Some([first, second])
-}
-
-/// Sections and statements of a half.
-fn stage(half: &[(&str, &Statement)]) -> (Vec<(String, usize)>, Vec<Statement>) {
-    let begins = |index: &usize| *index == 0 || half[index - 1].0 != half[*index].0;
-    let sections = (0..half.len()).filter(begins).map(|index| (half[index].0.to_owned(), index)).collect();
-    (sections, half.iter().map(|(_, statement)| (*statement).clone()).collect())
 }
 
 #[cfg(test)]

@@ -19,7 +19,12 @@ pub fn needed(stages: &[Stage<'_>], results: &[&str]) -> (Vec<(String, usize)>, 
         }
     }
     kept.reverse();
-    let begins = |index: &usize| *index == 0 || kept[index - 1].0 != kept[*index].0;
-    let sections = (0..kept.len()).filter(begins).map(|index| (kept[index].0.to_owned(), index)).collect();
-    (sections, kept.into_iter().map(|(_, statement)| statement.clone()).collect())
+    stage(&kept)
+}
+
+/// Sections and statements of a stage from statements with the names of their sections.
+pub fn stage(statements: &[(&str, &Statement)]) -> (Vec<(String, usize)>, Vec<Statement>) {
+    let begins = |index: &usize| *index == 0 || statements[index - 1].0 != statements[*index].0;
+    let sections = (0..statements.len()).filter(begins).map(|index| (statements[index].0.to_owned(), index)).collect();
+    (sections, statements.iter().map(|(_, statement)| (*statement).clone()).collect())
 }
