@@ -428,11 +428,8 @@ def main():
     for problem in problems:
         print(f"error: {problem}")
     missed = len(bounds["accepted"])
-    say(
-        f"{missed} numbers are over their budgets, within what is accepted; the document lists them"
-        if not problems
-        else "failed"
-    )
+    within = f"all but {missed} numbers are" if missed else "all numbers are"
+    say("failed" if problems else f"{within} within their budgets")
     return 1 if problems else 0
 
 

@@ -6,9 +6,9 @@
 
 use super::loops;
 use super::needed::{needed, stage};
-use super::statements::{Scope, bindings};
+use super::statements::{Scope, bindings, fields};
 use super::syntax::Syntax;
-use crate::format::{Family, Function, Graph, Operand, Statement, Variable, section_at};
+use crate::format::{Family, Function, Operand, Statement, Variable, section_at};
 use std::collections::{HashMap, HashSet};
 
 /// Statements, each with the name of its section.
@@ -16,7 +16,7 @@ type Half<'a> = Vec<(&'a str, &'a Statement)>;
 
 /// The lines of a function up to its result. None where it has no halves: where it has no matrix, or one that depends on
 /// velocities, or what depends on them needs all of the configuration.
-pub fn in_halves(graph: &Graph, family: &Family, function: &Function, is_fused: bool) -> Option<Vec<String>> {
+pub fn in_halves(family: &Family, function: &Function, scope: &Scope<'_>) -> Option<Vec<String>> {
     let [first, second] = halves(family, function)?.map(|half| stage(&half));
     let results = loops::names(&function.outputs);
     let (sections, statements) = needed(&[(&second.0, &second.1)], &results);
@@ -24,18 +24,13 @@ pub fn in_halves(graph: &Graph, family: &Family, function: &Function, is_fused: 
     let assigned = first.1.iter().flat_map(|statement| statement.targets.names());
     let crossing: Vec<&str> = assigned.filter(|name| is_read.contains(name)).collect();
     let (first_sections, first_statements) = needed(&[(&first.0, &first.1)], &crossing);
-    let scope = Scope::constants(graph, Syntax::Rust, is_fused);
     let mut lines = scope.lines(&first_sections, &first_statements, &crossing);
     let rest = scope.lines(&sections, &statements, &results);
     let bound = bindings(&[&lines[..], &rest].concat(), "self", Syntax::Rust);
     let of_velocities: HashSet<&str> = function.statements.iter().flat_map(|s| s.targets.names()).collect();
     let few: Vec<&str> = crossing.into_iter().filter(|name| of_velocities.contains(name)).collect();
     lines.push(format!("let [{few}] = read_again([{few}]);", few = few.join(", ")));
-    for fields in ["parameters", "constants"] {
-        if rest.iter().any(|line| line.contains(&format!("{fields}."))) {
-            lines.push(format!("let {fields} = read_again({fields});"));
-        }
-    }
+    lines.extend(fields(&rest, Syntax::Rust).map(|field| format!("let {field} = read_again({field});")));
     Some([bound, lines, rest].concat())
 }
 

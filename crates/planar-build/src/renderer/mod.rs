@@ -267,8 +267,8 @@ fn render_function(
 
 /// The body of a function that does not go by way of a configuration, where it has halves.
 fn in_one_piece(graph: &Graph, family: &Family, function: &Function, is_fused: bool) -> Option<String> {
-    let lines = in_halves(graph, family, function, is_fused)?;
     let scope = Scope::constants(graph, Syntax::Rust, is_fused);
+    let lines = in_halves(family, function, &scope)?;
     Some(body(&[lines, result(function, &scope)].concat()))
 }
 

@@ -350,9 +350,14 @@ pub fn nested(shape: &[usize], elements: &[String]) -> String {
 
 /// References to the model's fields that lines use.
 pub fn bindings(lines: &[String], model: &str, syntax: Syntax) -> Vec<String> {
+    fields(lines, syntax).map(|field| syntax.reference(field, model)).collect()
+}
+
+/// The model's fields that lines use.
+pub fn fields(lines: &[String], syntax: Syntax) -> impl Iterator<Item = &'static str> {
     let fields = [("parameters", Place::Parameters), ("constants", Place::Constants)];
-    let used = |(_, place): &(&str, Place)| lines.iter().any(|line| line.contains(&syntax.field(*place, "")));
-    fields.iter().filter(|field| used(field)).map(|(field, _)| syntax.reference(field, model)).collect()
+    let used = move |(_, place): &(&str, Place)| lines.iter().any(|line| line.contains(&syntax.field(*place, "")));
+    fields.into_iter().filter(used).map(|(field, _)| field)
 }
 
 #[cfg(test)]
