@@ -254,6 +254,12 @@ impl Function {
 }
 
 impl Variable {
+    /// Whether an element, row-major, is an angle, by its unit.
+    pub fn is_angle(&self, index: usize) -> bool {
+        let units: Vec<&str> = self.unit.split(", ").collect();
+        units[index % units.len()] == "rad"
+    }
+
     /// The name of an element, row-major, in statements: `joint_angles[1]`, `contacts[0][1]`.
     pub fn element(&self, index: usize) -> String {
         match self.shape.get(1) {

@@ -40,7 +40,26 @@ macro_rules! lanes {
 
             #[inline]
             fn sin_cos(self) -> (Self, Self) {
-                all::$sin_cos(self)
+                // one that is infinite is no sum of finite angles
+                all::$sin_cos(self, || self * Self::ZERO)
+            }
+
+            #[inline]
+            fn sin_cos_of_sums<const N: usize, const K: usize, const M: usize>(
+                sums: [Self; N],
+                some: [Self; K],
+                others: &[Self; M],
+            ) -> [(Self, Self); N] {
+                let terms = || some.iter().chain(others).fold(Self::ZERO, |sum, angle| sum + *angle * Self::ZERO);
+                sums.map(|sum| all::$sin_cos(sum, terms))
+            }
+
+            #[inline]
+            fn saturated(self) -> Self {
+                // NaN is not larger than any number
+                let largest = $lanes::splat($float::MAX);
+                let below = self.simd_gt(largest).select(largest, self);
+                below.simd_lt(-largest).select(-largest, below)
             }
 
             #[inline]

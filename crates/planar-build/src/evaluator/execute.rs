@@ -20,7 +20,7 @@ pub(super) fn execute(program: &Program, registers: &mut Registers) {
         match kind {
             Kind::Neg => all(registers, instructions, |[a, ..]| -a),
             Kind::Sqrt => all(registers, instructions, |[a, ..]| Scalar::sqrt(a)),
-            Kind::SinCos => instructions.chunks(SINES).for_each(|some| sines(registers, some)),
+            Kind::SinCos => instructions.chunks(SINES).for_each(|some| sines(registers, some, &program.terms)),
             Kind::Add => all(registers, instructions, |[a, b, ..]| a + b),
             Kind::Sub => all(registers, instructions, |[a, b, ..]| a - b),
             Kind::Mul => all(registers, instructions, |[a, b, ..]| a * b),
@@ -54,19 +54,34 @@ fn at(registers: &Registers, register: Register) -> f64 {
 /// Angles whose sines are computed at once.
 const SINES: usize = 8;
 
-/// Executes at most so many instructions for sines and cosines.
+/// Executes at most so many instructions for sines and cosines, of angles that are sums of these terms, if of any.
 #[inline(never)]
-fn sines(registers: &mut Registers, instructions: &[Operands]) {
-    if let [[sine, cosine, angle, ..]] = *instructions {
-        let (s, c) = Scalar::sin_cos(at(registers, angle));
-        (registers[usize::from(sine)], registers[usize::from(cosine)]) = (s, c);
+fn sines(registers: &mut Registers, instructions: &[Operands], terms: &[Register]) {
+    if let ([[sine, cosine, angle, ..]], []) = (instructions, terms) {
+        let (s, c) = Scalar::sin_cos(at(registers, *angle));
+        (registers[usize::from(*sine)], registers[usize::from(*cosine)]) = (s, c);
         return;
     }
     let mut angles = [0.0; SINES];
     for (angle, [_, _, from, ..]) in angles.iter_mut().zip(instructions) {
         *angle = at(registers, *from);
     }
+    // NaN where one is not finite
+    if !terms.is_empty() && angles.iter().fold(0.0, |sum, angle| sum + angle * 0.0) != 0.0 {
+        saturate(&mut angles, registers, terms);
+    }
     for ([sine, cosine, ..], (s, c)) in instructions.iter().zip(Scalar::sin_cos_all(angles)) {
         (registers[usize::from(*sine)], registers[usize::from(*cosine)]) = (s, c);
+    }
+}
+
+/// Sums of finite terms that are infinite count as the largest number.
+#[cold]
+#[inline(never)]
+fn saturate(sums: &mut [f64], registers: &Registers, terms: &[Register]) {
+    if terms.iter().all(|term| at(registers, *term).is_finite()) {
+        for sum in sums {
+            *sum = sum.saturated();
+        }
     }
 }

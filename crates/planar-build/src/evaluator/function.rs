@@ -146,6 +146,10 @@ impl Function {
             }
             wanted = in_loops(&mut values, function, &wanted);
         }
+        let angles = function.outputs.iter().flat_map(|o| (0..o.elements.len()).map(|element| o.is_angle(element)));
+        for (element, _) in wanted.iter_mut().zip(angles).filter(|(_, is_angle)| *is_angle) {
+            *element = values.saturated(*element);
+        }
         let mut ranges = Vec::with_capacity(function.outputs.len());
         let mut end = 0;
         for output in &function.outputs {

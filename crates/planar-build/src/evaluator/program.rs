@@ -1,7 +1,7 @@
 //! A program: the statements that some outputs need, on registers.
 //!
 //! Registers are in this order: constants, inputs, and results, which have those of inputs and other results where
-//! these are not needed any more. Constants stay.
+//! these are not needed any more. Constants stay, and what angles are sums of.
 
 use super::instruction::{Kind, Operands, Register, Run};
 use super::schedule::{Wait, schedule};
@@ -21,6 +21,8 @@ pub(super) struct Program {
     operands: Vec<Operands>,
     /// The registers of the outputs' elements.
     pub outputs: Vec<Register>,
+    /// Those of all that angles of sines are sums of; none where no angle is a sum.
+    pub terms: Vec<Register>,
     /// The number of registers.
     pub registers: usize,
 }
@@ -42,7 +44,9 @@ impl Program {
         let uses = uses(values, outputs);
         let steps = steps(values, &uses);
         let steps: Vec<Step> = schedule(&waits(values, &steps)).into_iter().map(|index| steps[index]).collect();
+        let terms = terms(values, &uses);
         let mut registers = Registers::new(values, inputs, &uses);
+        registers.keep(&terms);
         let last = last_uses(values, &steps, outputs);
         let mut program = Self { runs: Vec::new(), operands: Vec::with_capacity(steps.len()), ..Self::default() };
         for (now, step) in steps.iter().enumerate() {
@@ -57,6 +61,7 @@ impl Program {
             let mut of_instruction = to.into_iter().chain(from);
             program.push(kind, [(); 5].map(|()| of_instruction.next().unwrap_or(0)));
         }
+        program.terms = terms.iter().map(|value| registers.of(*value)).collect();
         program.outputs = outputs.iter().map(|value| registers.of(*value)).collect();
         program.constants = registers.constants;
         program.registers = registers.next;
@@ -101,6 +106,34 @@ fn uses(values: &Values, outputs: &[usize]) -> Vec<usize> {
         }
     }
     uses
+}
+
+/// What angles of sines that are needed are sums of; nothing where none of them is a sum.
+fn terms(values: &Values, uses: &[usize]) -> Vec<usize> {
+    let is_needed = |index: usize| uses[index] > 0 || uses[index + 1] > 0;
+    let mut angles: Vec<usize> = values
+        .all
+        .iter()
+        .enumerate()
+        .filter_map(|(index, value)| match value {
+            Value::Result { operation: Operation::SinCos, a, .. } => is_needed(index).then_some(*a),
+            _ => None,
+        })
+        .collect();
+    let (mut is_sum, mut terms) = (false, Vec::new());
+    while let Some(angle) = angles.pop() {
+        match values.all[angle] {
+            Value::Result { operation: Operation::Add, a, b } => {
+                is_sum = true;
+                angles.push(a);
+                angles.extend(b);
+            }
+            _ => terms.push(angle),
+        }
+    }
+    terms.sort_unstable();
+    terms.dedup();
+    if is_sum { terms } else { Vec::new() }
 }
 
 /// The steps in which all values that are needed are computed; products that only one sum uses are part of it.
@@ -214,6 +247,13 @@ impl Registers {
         }
         registers.next = constants + inputs;
         registers
+    }
+
+    /// Values whose registers are theirs to the end.
+    fn keep(&mut self, values: &[usize]) {
+        for value in values {
+            self.shared[*value] = false;
+        }
     }
 
     /// That of a value; the last of all where there were too many, which [`take`](Self::take) reports.

@@ -66,6 +66,17 @@ impl Values {
         self.all.len() - 1
     }
 
+    /// Adds a value, or of an infinite one the largest number with its sign.
+    pub fn saturated(&mut self, value: usize) -> usize {
+        let largest = self.number(f64::MAX);
+        let mut saturated = value;
+        for _ in 0..2 {
+            let limited = self.result(Operation::Min, saturated, Some(largest));
+            saturated = self.result(Operation::Neg, limited, None);
+        }
+        saturated
+    }
+
     /// Adds the values of statements.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 use super::fused::{MultiplyAdd, fuse};
 use super::pairs::{Half, Names};
-use super::syntax::{Place, Syntax};
+use super::syntax::{Place, Syntax, Terms};
 use crate::format::{Graph, Operand, Operation, Statement, Variable, section_at};
 use std::collections::{HashMap, HashSet};
 
@@ -12,6 +12,9 @@ const BLOCK: usize = 300;
 
 /// Longest text of an operand that is itself an expression.
 const OPERAND: usize = 44;
+
+/// The input of joint angles.
+const JOINT_ANGLES: &str = "joint_angles";
 
 /// How names are reached in the body of a function.
 #[derive(Default)]
@@ -141,6 +144,8 @@ impl<'a> Scope<'a> {
         let mut inlined = HashMap::new();
         let mut lines = Vec::new();
         let mut angles = Vec::new();
+        let assigned: HashMap<&str, &Statement> =
+            statements.iter().flat_map(|s| s.targets.names().into_iter().map(move |name| (name, s))).collect();
         for (index, statement) in statements.iter().enumerate() {
             let expression = match fused.get(&index) {
                 None => self.expression(statement, &mut inlined),
@@ -149,10 +154,10 @@ impl<'a> Scope<'a> {
             };
             let (section, targets) = (section(index), statement.targets.names());
             if let [sine, cosine] = *bound(targets.clone()) {
-                angles.push(([sine, cosine], expression));
+                angles.push(([sine, cosine], expression, &statement.a));
                 let is_last = statements.get(index + 1).is_none_or(|next| next.operation != Operation::SinCos);
                 if is_last {
-                    lines.push(self.sines(section, std::mem::take(&mut angles)));
+                    lines.push(self.sines(section, std::mem::take(&mut angles), &assigned));
                 }
                 continue;
             }
@@ -277,20 +282,60 @@ impl<'a> Scope<'a> {
     }
 
     /// The sines and cosines of some angles, none of which depends on another's, in one line.
-    fn sines(&self, section: &'a str, angles: Vec<([&'a str; 2], Expression<'a>)>) -> Line<'a> {
+    fn sines(
+        &self,
+        section: &'a str,
+        mut angles: Vec<([&'a str; 2], Expression<'a>, &'a Operand)>,
+        assigned: &HashMap<&'a str, &'a Statement>,
+    ) -> Line<'a> {
+        // sums first: an angle that is a term of them is kept for them
+        angles.sort_by_key(|(.., angle)| angle.name().is_some_and(|name| !assigned.contains_key(name)));
         let texts: Vec<_> = angles
             .iter()
-            .map(|(targets, angle)| (*targets, angle.within(Precedence::Atom), angle.text.clone()))
+            .map(|(targets, angle, _)| (*targets, angle.within(Precedence::Atom), angle.text.clone()))
             .collect();
-        let text = self.syntax.sines(&texts);
-        let (targets, expressions): (Vec<_>, Vec<_>) = angles.into_iter().unzip();
-        let names = expressions.into_iter().flat_map(|angle| angle.names).collect();
-        Line { section, targets: targets.concat(), names, text }
+        let terms = self.terms(angles.iter().filter_map(|(.., angle)| angle.name()).collect(), assigned);
+        let text = self.syntax.sines(&texts, terms.as_ref());
+        let mut names: Vec<&str> = Vec::new();
+        let mut targets = Vec::new();
+        for (of_angle, expression, _) in angles {
+            targets.extend(of_angle);
+            names.extend(expression.names);
+        }
+        Line { section, targets, names, text }
+    }
+
+    /// What angles are sums of; nothing where none is a sum.
+    fn terms(&self, mut angles: Vec<&'a str>, assigned: &HashMap<&'a str, &'a Statement>) -> Option<Terms> {
+        let (mut is_sum, mut some) = (false, Vec::new());
+        while let Some(name) = angles.pop() {
+            for source in self.sources(name) {
+                match assigned.get(source) {
+                    Some(statement) => {
+                        is_sum |= statement.operation == Operation::Add;
+                        angles.extend(statement.reads());
+                    }
+                    None if source.starts_with(JOINT_ANGLES) => {}
+                    None => some.push(self.named(source)),
+                }
+            }
+        }
+        some.sort();
+        some.dedup();
+        let count = self.inputs.get(JOINT_ANGLES)?.iter().product();
+        is_sum.then_some(Terms { some, joints: JOINT_ANGLES, count })
+    }
+
+    /// An element of an output.
+    pub fn element_of(&self, output: &Variable, index: usize, element: &Operand) -> String {
+        let text = self.operand(element);
+        if output.is_angle(index) { self.syntax.saturated(&text) } else { text }
     }
 
     /// The elements of an output as an array of its shape, a matrix row by row.
     pub fn array(&self, output: &Variable) -> String {
-        let elements: Vec<String> = output.elements.iter().map(|element| self.operand(element)).collect();
+        let elements = output.elements.iter().enumerate();
+        let elements: Vec<String> = elements.map(|(index, element)| self.element_of(output, index, element)).collect();
         nested(&output.shape, &elements)
     }
 }

@@ -106,25 +106,57 @@ impl Syntax {
         }
     }
 
+    /// A result that is an angle: a sum, which may be beyond the largest number.
+    pub fn saturated(self, angle: &str) -> String {
+        match self {
+            Self::Rust => format!("{angle}.saturated()"),
+            Self::C => format!("saturated({angle})"),
+        }
+    }
+
     /// Sines and cosines: the two names and the angle of each, as an atom and as it is. `_` is no name.
-    pub fn sines(self, angles: &[([&str; 2], String, String)]) -> String {
-        match (self, angles) {
-            (Self::Rust, [([sine, cosine], atom, _)]) => format!("let ({sine}, {cosine}) = {atom}.sin_cos();"),
-            (Self::Rust, all) => {
+    pub fn sines(self, angles: &[([&str; 2], String, String)], terms: Option<&Terms>) -> String {
+        match (self, angles, terms) {
+            (Self::Rust, [([sine, cosine], atom, _)], None) => format!("let ({sine}, {cosine}) = {atom}.sin_cos();"),
+            (Self::Rust, all, terms) => {
                 let targets: Vec<String> = all.iter().map(|([s, c], ..)| format!("({s}, {c})")).collect();
                 let angles: Vec<&str> = all.iter().map(|(.., angle)| angle.as_str()).collect();
-                format!("let [{}] = T::sin_cos_all([{}]);", targets.join(", "), angles.join(", "))
+                let angles = angles.join(", ");
+                let call = match terms {
+                    None => format!("sin_cos_all([{angles}])"),
+                    Some(Terms { some, joints, .. }) => {
+                        format!("sin_cos_of_sums([{angles}], [{}], {joints})", some.join(", "))
+                    }
+                };
+                format!("let [{}] = T::{call};", targets.join(", "))
             }
-            (Self::C, all) => {
+            (Self::C, all, terms) => {
+                let first = all.first().map_or("", |([sine, cosine], ..)| if *sine == "_" { cosine } else { sine });
+                let check = format!("terms_of_{first}");
+                let sum = terms.map(|Terms { some, joints, count }| {
+                    let joints = (0..*count).map(|joint| format!("{joints}[{joint}]"));
+                    let products = some.iter().cloned().chain(joints).map(|term| format!("({term} * zero)"));
+                    format!("const real {check} = {};", products.collect::<Vec<_>>().join(" + "))
+                });
                 let lines = all.iter().flat_map(|([sine, cosine], _, angle)| {
                     let pair = format!("of_{}", if *sine == "_" { cosine } else { sine });
                     let values = [(sine, "sine"), (cosine, "cosine")].into_iter().filter(|(name, _)| **name != "_");
                     let values = values.map(|(name, field)| format!("const real {name} = {pair}.{field};"));
                     let values: Vec<String> = values.collect();
-                    [format!("const sine_cosine {pair} = sin_cos({angle});")].into_iter().chain(values)
+                    let terms = if terms.is_some() { check.clone() } else { "no_sum".to_owned() };
+                    [format!("const sine_cosine {pair} = sin_cos({angle}, {terms});")].into_iter().chain(values)
                 });
-                lines.collect::<Vec<_>>().join("\n")
+                sum.into_iter().chain(lines).collect::<Vec<_>>().join("\n")
             }
         }
     }
+}
+
+/// What the angles of some sines are sums of: joint angles, and others.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Terms {
+    pub some: Vec<String>,
+    /// The name of all joint angles.
+    pub joints: &'static str,
+    pub count: usize,
 }

@@ -1,12 +1,12 @@
 //! What a target may do in a way of its own: several sines at once, square roots, and with the feature `fused` products with sums.
 
-pub(super) use super::portable::sin_cos_all_f32;
 #[cfg(not(feature = "fused"))]
 pub(super) use super::portable::{mul_add_f32, mul_add_f64};
+pub(super) use super::portable::{sin_cos_all_f32, sin_cos_of_sums_f32};
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-pub(super) use super::portable::{sin_cos_all_f64, sqrt_f32, sqrt_f64};
+pub(super) use super::portable::{sin_cos_all_f64, sin_cos_of_sums_f64, sqrt_f32, sqrt_f64};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-pub(super) use super::sine_batch::sin_cos_all_f64;
+pub(super) use super::sine_batch::{sin_cos_all_f64, sin_cos_of_sums_f64};
 
 /// The processor's square root, correctly rounded; `core` has it for vectors alone.
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]

@@ -59,6 +59,14 @@ fn quotient<T: Real>(a: T, b: T) -> T {
     if a == T::ZERO { a } else { a / b }
 }
 
+impl<T: Real> Dual<T> {
+    /// Sine and cosine of the angle, of which the values are known.
+    #[inline]
+    fn with_rates(self, (sin, cos): (T, T)) -> (Self, Self) {
+        (Self(sin, cos * self.1), Self(cos, -(sin * self.1)))
+    }
+}
+
 impl<T: Real> Scalar for Dual<T> {
     const ZERO: Self = Self(T::ZERO, T::ZERO);
     const ONE: Self = Self(T::ONE, T::ZERO);
@@ -70,8 +78,25 @@ impl<T: Real> Scalar for Dual<T> {
 
     #[inline]
     fn sin_cos(self) -> (Self, Self) {
-        let (sin, cos) = self.0.sin_cos();
-        (Self(sin, cos * self.1), Self(cos, -(sin * self.1)))
+        self.with_rates(self.0.sin_cos())
+    }
+
+    fn sin_cos_of_sums<const N: usize, const K: usize, const M: usize>(
+        sums: [Self; N],
+        some: [Self; K],
+        others: &[Self; M],
+    ) -> [(Self, Self); N] {
+        let values = T::sin_cos_of_sums(sums.map(|sum| sum.0), some.map(|angle| angle.0), &others.map(|angle| angle.0));
+        let mut of_sums = sums.map(|sum| (sum, sum));
+        for (of_sum, values) in of_sums.iter_mut().zip(values) {
+            *of_sum = of_sum.0.with_rates(values);
+        }
+        of_sums
+    }
+
+    #[inline]
+    fn saturated(self) -> Self {
+        Self(self.0.saturated(), self.1)
     }
 
     #[inline]

@@ -57,12 +57,31 @@ pub const DIGITS_SINGLE: [u32; 8] =
 /// 2³².
 const WORD: f64 = 4_294_967_296.0;
 
-/// The 32 binary digits from `at` on.
+/// The digits by bytes: words are read from any byte on, and what is left of the place is less than eight digits, by which
+/// the angle's integer is multiplied instead.
+static BYTES: [u8; 152] = bytes(&DIGITS);
+static BYTES_SINGLE: [u8; 32] = bytes(&DIGITS_SINGLE);
+
+const fn bytes<const W: usize, const B: usize>(words: &[u32; W]) -> [u8; B] {
+    let mut bytes = [0; B];
+    let mut i = 0;
+    while i < B {
+        bytes[i] = words[i / 4].to_be_bytes()[i % 4];
+        i += 1;
+    }
+    bytes
+}
+
+/// Words of 32 binary digits from a byte on.
 #[inline]
-fn digits_from<const N: usize>(digits: &[u32; N], at: u32) -> u64 {
-    let word = |i: u32| digits.get(i as usize).copied().unwrap_or(0);
-    let (first, second) = (word(at / 32), word(at / 32 + 1));
-    u64::from((first << (at % 32)) | (second >> 1 >> (31 - at % 32)))
+fn words<const N: usize, const B: usize, const W: usize>(bytes: &[u8; N], from: u32) -> [u64; W] {
+    let bytes = bytes.get(from as usize..).and_then(|bytes| bytes.first_chunk::<B>());
+    let (all, _) = bytes.unwrap_or(&[0; B]).as_chunks();
+    let mut words = [0; W];
+    for (word, bytes) in words.iter_mut().zip(all) {
+        *word = u64::from(u32::from_be_bytes(*bytes));
+    }
+    words
 }
 
 /// Quarter turns with 62 binary places: the nearest integer, and 32 places each of what is left of it, the first with its sign.
@@ -74,42 +93,43 @@ fn nearest(turns: u64) -> (u32, i32, u32) {
     (quarters, upper.wrapping_sub(quarters << 30).cast_signed(), lower)
 }
 
-/// (remainder in rad, number of quarter turns modulo 4) of an angle of at least 2²⁰ rad; NaN for one that is not finite.
+/// (remainder in rad, number of quarter turns modulo 4) of an angle of at least 2²⁰ rad; NaN for one that is infinite.
 #[inline]
 #[allow(clippy::cast_possible_truncation, reason = "words of 32 bits")]
 pub(super) fn reduce_f64(angle: f64) -> (f64, u64) {
     let [lower, upper] = [angle.to_bits() as u32, (angle.to_bits() >> 32) as u32];
-    // the angle is m 2ᵉ with e = exponent - 1075
+    // the angle is an integer times 2ᵉ with e = exponent - 1075
     let exponent = (upper >> 20) & 0x7ff;
-    let [m, n] = [lower, upper & ((1 << 20) - 1) | (1 << 20)].map(u64::from);
+    let integer = (u64::from(upper & ((1 << 20) - 1) | (1 << 20)) << 32) | u64::from(lower);
     // the first digit whose product with the angle is below 4: 62 + e with the leading zeros
     let first = exponent.saturating_sub(1013);
-    let digits = |word: u32| digits_from(&DIGITS, first + 32 * word);
-    let turns = ((m * digits(2)) >> 32)
-        .wrapping_add((n * digits(3)) >> 32)
-        .wrapping_add(n * digits(2))
-        .wrapping_add(m * digits(1))
-        .wrapping_add((n * digits(1)) << 32)
-        .wrapping_add((m * digits(0)) << 32);
+    let integer = integer << (first % 8);
+    let [low, high] = [integer & 0xffff_ffff, integer >> 32];
+    let [a, b, c, d] = words::<_, 16, 4>(&BYTES, first / 8);
+    let turns = ((low * c) >> 32)
+        .wrapping_add((high * d) >> 32)
+        .wrapping_add(high * c)
+        .wrapping_add(low * b)
+        .wrapping_add((high * b) << 32)
+        .wrapping_add((low * a) << 32);
     let (quarters, upper, lower) = nearest(turns);
     let size = (f64::from(upper) * WORD + f64::from(lower)) * (double::FRAC_PI_2 / 4_611_686_018_427_387_904.0);
     // NaN for an angle that is not finite
-    let (size, quarters) = (size + angle * 0.0, u64::from(quarters));
-    if angle < 0.0 { (-size, quarters.wrapping_neg()) } else { (size, quarters) }
+    (size + angle * 0.0, u64::from(quarters))
 }
 
 /// As [`reduce_f64`], of an angle of at least 2⁹ rad.
 #[inline]
 #[allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "words; rounding to the scalar")]
 pub(super) fn reduce_f32(angle: f32) -> (f32, u32) {
-    // the angle is m 2ᵉ with e = exponent - 150
+    // the angle is an integer times 2ᵉ with e = exponent - 150
     let exponent = (angle.to_bits() >> 23) & 0xff;
-    let m = u64::from((angle.to_bits() & ((1 << 23) - 1)) | (1 << 23));
+    let integer = (angle.to_bits() & ((1 << 23) - 1)) | (1 << 23);
     let first = exponent.saturating_sub(120);
-    let digits = |word: u32| digits_from(&DIGITS_SINGLE, first + 32 * word);
-    let turns = ((m * digits(2)) >> 32).wrapping_add(m * digits(1)).wrapping_add((m * digits(0)) << 32);
+    let m = u64::from(integer << (first % 8));
+    let [a, b, c] = words::<_, 12, 3>(&BYTES_SINGLE, first / 8);
+    let turns = ((m * c) >> 32).wrapping_add(m * b).wrapping_add((m * a) << 32);
     let (quarters, upper, lower) = nearest(turns);
     let size = (upper as f32 * WORD as f32 + lower as f32) * (single::FRAC_PI_2 / 4_611_686_018_427_387_904.0);
-    let size = size + angle * 0.0;
-    if angle < 0.0 { (-size, quarters.wrapping_neg()) } else { (size, quarters) }
+    (size + angle * 0.0, quarters)
 }

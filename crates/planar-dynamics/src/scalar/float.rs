@@ -2,12 +2,15 @@
 //!
 //! Arctangents are those of parameters, once per model: they are accurate rather than fast.
 
-use super::accelerated::{mul_add_f32, mul_add_f64, sin_cos_all_f32, sin_cos_all_f64, sqrt_f32, sqrt_f64};
+use super::accelerated::{
+    mul_add_f32, mul_add_f64, sin_cos_all_f32, sin_cos_all_f64, sin_cos_of_sums_f32, sin_cos_of_sums_f64, sqrt_f32,
+    sqrt_f64,
+};
 use super::number::Scalar;
-use super::sine::{sin_cos_f32, sin_cos_f64};
+use super::sine;
 
 macro_rules! scalar {
-    ($float:ident, $sin_cos:ident, $sin_cos_all:ident, $mul_add:ident, $sqrt:ident, $atan2:ident) => {
+    ($float:ident, $sines:ident, $sin_cos_all:ident, $sin_cos_of_sums:ident, $mul_add:ident, $sqrt:ident, $atan2:ident) => {
         /// Angle of the vector (x, y) by three steps that add the tangent of the remaining angle; each leaves its cube.
         fn $atan2(y: $float, x: $float) -> $float {
             use core::$float::consts::{FRAC_PI_4, PI};
@@ -28,7 +31,7 @@ macro_rules! scalar {
                 (false, true) => half - y * FRAC_PI_4,
             };
             for _ in 0..3 {
-                let (s, c) = $sin_cos(angle);
+                let (s, c) = sine::$sines::sin_cos(angle);
                 angle += (y * c - x * s) / (x * c + y * s);
             }
             angle
@@ -51,13 +54,32 @@ macro_rules! scalar {
 
             #[inline]
             fn sin_cos(self) -> (Self, Self) {
-                $sin_cos(self)
+                sine::$sines::sin_cos(self)
             }
 
             #[allow(clippy::inline_always, reason = "a call would pass all angles through memory")]
             #[inline(always)]
             fn sin_cos_all<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
                 $sin_cos_all(angles)
+            }
+
+            #[allow(clippy::inline_always, reason = "a call would pass all angles through memory")]
+            #[inline(always)]
+            fn sin_cos_of_sums<const N: usize, const K: usize, const M: usize>(
+                sums: [Self; N],
+                some: [Self; K],
+                others: &[Self; M],
+            ) -> [(Self, Self); N] {
+                $sin_cos_of_sums(sums, some, others)
+            }
+
+            #[inline]
+            fn saturated(self) -> Self {
+                match self {
+                    $float::INFINITY => $float::MAX,
+                    $float::NEG_INFINITY => $float::MIN,
+                    _ => self,
+                }
             }
 
             #[inline]
@@ -84,5 +106,5 @@ macro_rules! scalar {
     };
 }
 
-scalar!(f32, sin_cos_f32, sin_cos_all_f32, mul_add_f32, sqrt_f32, atan2_f32);
-scalar!(f64, sin_cos_f64, sin_cos_all_f64, mul_add_f64, sqrt_f64, atan2_f64);
+scalar!(f32, single, sin_cos_all_f32, sin_cos_of_sums_f32, mul_add_f32, sqrt_f32, atan2_f32);
+scalar!(f64, double, sin_cos_all_f64, sin_cos_of_sums_f64, mul_add_f64, sqrt_f64, atan2_f64);

@@ -36,7 +36,8 @@ pub use number::Scalar;
 pub use pair::Pair;
 pub use portable::{sqrt_f32, sqrt_f64};
 pub use real::Real;
-pub use sine::{sin_cos_f32, sin_cos_f64};
+pub use sine::double::sin_cos as sin_cos_f64;
+pub use sine::single::sin_cos as sin_cos_f32;
 
 #[cfg(all(test, any(target_arch = "x86_64", target_arch = "aarch64")))]
 mod tests {

@@ -25,6 +25,27 @@ pub trait Scalar:
         angles.map(Self::sin_cos)
     }
 
+    /// (sine, cosine) of sums in rad, whose terms are among `some` and `others`. A sum beyond the largest number counts as
+    /// that number where all of these are finite: each angle is valid, whatever the others are.
+    ///
+    /// Without a definition of its own, a scalar has what [`sin_cos_all`](Self::sin_cos_all) gives.
+    #[inline]
+    fn sin_cos_of_sums<const N: usize, const K: usize, const M: usize>(
+        sums: [Self; N],
+        some: [Self; K],
+        others: &[Self; M],
+    ) -> [(Self, Self); N] {
+        let _ = (some, others);
+        Self::sin_cos_all(sums)
+    }
+
+    /// The value, or of an infinite one the largest number with its sign.
+    #[inline]
+    #[must_use]
+    fn saturated(self) -> Self {
+        self
+    }
+
     /// `self` · `factor` + `addend`; with one rounding where the feature `fused` and the processor allow it.
     #[inline]
     #[must_use]

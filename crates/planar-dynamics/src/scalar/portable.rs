@@ -1,23 +1,45 @@
 //! What [`accelerated`](super::accelerated) does in a way of the target's own, with `core` alone: for other targets, and for
 //! standalone modules.
 
-use super::sine::{sin_cos_f32, sin_cos_f64, sin_cos_pair_f32, sin_cos_pair_f64};
+use super::sine;
 
 macro_rules! portable {
-    ($float:ident, $bits:ident, $sin_cos:ident, $sin_cos_pair:ident, $sin_cos_all:ident, $mul_add:ident, $sqrt:ident) => {
+    ($float:ident, $bits:ident, $sines:ident, $of_each:ident, $sin_cos_all:ident, $sin_cos_of_sums:ident, $mul_add:ident,
+     $sqrt:ident) => {
+        /// (sine, cosine) of each angle, rad; `any` is for those that may be far.
+        #[cfg_attr(target_arch = "arm", inline(always))]
+        #[cfg_attr(not(target_arch = "arm"), inline)]
+        fn $of_each<const N: usize>(
+            angles: [$float; N],
+            any: impl Fn($float) -> sine::$sines::Single + Copy,
+        ) -> [($float, $float); N] {
+            let mut results = [(0.0, 0.0); N];
+            let ((pairs, last), (places, place)) = (angles.as_chunks(), results.as_chunks_mut());
+            for ([first, second], place) in pairs.iter().zip(places) {
+                *place = sine::$sines::sin_cos_pair(*first, *second, any).into_tuples();
+            }
+            for (angle, place) in last.iter().zip(place) {
+                *place = sine::$sines::sin_cos_one(*angle, any).into_tuple();
+            }
+            results
+        }
+
         /// (sine, cosine) of each angle, rad.
         #[cfg_attr(target_arch = "arm", inline(always))]
         #[cfg_attr(not(target_arch = "arm"), inline)]
         pub(super) fn $sin_cos_all<const N: usize>(angles: [$float; N]) -> [($float, $float); N] {
-            let mut results = [(0.0, 0.0); N];
-            let ((pairs, last), (places, place)) = (angles.as_chunks(), results.as_chunks_mut());
-            for ([first, second], place) in pairs.iter().zip(places) {
-                *place = $sin_cos_pair(*first, *second).into_tuples();
-            }
-            for (angle, place) in last.iter().zip(place) {
-                *place = $sin_cos(*angle);
-            }
-            results
+            $of_each(angles, |angle| sine::$sines::any(angle))
+        }
+
+        /// (sine, cosine) of sums, rad: `Scalar::sin_cos_of_sums`.
+        #[cfg_attr(target_arch = "arm", inline(always))]
+        #[cfg_attr(not(target_arch = "arm"), inline)]
+        pub(super) fn $sin_cos_of_sums<const N: usize, const K: usize, const M: usize>(
+            sums: [$float; N],
+            some: [$float; K],
+            others: &[$float; M],
+        ) -> [($float, $float); N] {
+            $of_each(sums, |sum| sine::$sines::any_sum(sum, sine::$sines::terms(some, others)))
         }
 
         /// a · b + c.
@@ -74,5 +96,5 @@ macro_rules! portable {
     };
 }
 
-portable!(f32, u32, sin_cos_f32, sin_cos_pair_f32, sin_cos_all_f32, mul_add_f32, sqrt_f32);
-portable!(f64, u64, sin_cos_f64, sin_cos_pair_f64, sin_cos_all_f64, mul_add_f64, sqrt_f64);
+portable!(f32, u32, single, of_each_f32, sin_cos_all_f32, sin_cos_of_sums_f32, mul_add_f32, sqrt_f32);
+portable!(f64, u64, double, of_each_f64, sin_cos_all_f64, sin_cos_of_sums_f64, mul_add_f64, sqrt_f64);

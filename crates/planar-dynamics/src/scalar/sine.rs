@@ -5,6 +5,7 @@
 //! which are out of line altogether, so that nothing is prepared for them.
 
 use super::far_angle::{reduce_f32, reduce_f64};
+use super::number::Scalar;
 
 /// What reduction and polynomials of a scalar consist of.
 #[derive(Debug)]
@@ -100,135 +101,142 @@ fn turned_f32(x: f32, quadrant: u32) -> (f32, f32) {
     (f32::from_bits(sine), f32::from_bits(cosine))
 }
 
+/// Sines of a float, in a module of its own.
 macro_rules! sines {
-    ($float:ident, $bits:ident, $coefficients:expr, $turned:ident, $reduce_near:ident, $near:ident, $reduce_far:ident,
-     $any:ident, $one:ident, $near_one:ident, $sin_cos:ident, $near_pair:ident, $has_pairs:literal, $sin_cos_pair:ident,
-     $single:ident, $pair:ident, $error:literal) => {
-        /// Sine and cosine. By the convention of C, up to four numbers come back in registers; by that of Rust, words do.
-        #[derive(Clone, Copy, Debug)]
-        #[repr(C)]
-        struct $single([$float; 2]);
+    ($module:ident, $float:ident, $bits:ident, $coefficients:ident, $turned:ident, $reduce_far:ident, $has_pairs:literal, $error:literal) => {
+        pub mod $module {
+            use super::{Scalar, $coefficients as K, $reduce_far as reduce_far, $turned as turned};
 
-        /// Sines and cosines of two angles.
-        #[derive(Clone, Copy, Debug)]
-        #[repr(C)]
-        pub struct $pair {
-            first: [$float; 2],
-            second: [$float; 2],
-        }
+            /// Sine and cosine. By the convention of C, up to four numbers come back in registers; by that of Rust, words do.
+            #[derive(Clone, Copy, Debug)]
+            #[repr(C)]
+            pub struct Single([$float; 2]);
 
-        impl $pair {
-            /// (sine, cosine) of each.
+            impl Single {
+                /// (sine, cosine).
+                #[inline]
+                pub fn into_tuple(self) -> ($float, $float) {
+                    self.0.into()
+                }
+            }
+
+            /// Sines and cosines of two angles.
+            #[derive(Clone, Copy, Debug)]
+            #[repr(C)]
+            pub struct Pair {
+                first: [$float; 2],
+                second: [$float; 2],
+            }
+
+            impl Pair {
+                /// (sine, cosine) of each.
+                #[inline]
+                pub fn into_tuples(self) -> [($float, $float); 2] {
+                    let Self { first: [a, b], second: [c, d] } = self;
+                    [(a, b), (c, d)]
+                }
+            }
+
+            /// (remainder, quarter turns) of an angle that is not far from 0.
             #[inline]
-            pub fn into_tuples(self) -> [($float, $float); 2] {
-                let Self { first: [a, b], second: [c, d] } = self;
-                [(a, b), (c, d)]
+            fn reduce_near(angle: $float) -> ($float, $bits) {
+                let shifted = angle * core::$float::consts::FRAC_2_PI + K.round;
+                let quarters = shifted - K.round;
+                let [a, b, c] = K.quarter_turn;
+                (((angle - quarters * a) - quarters * b) - quarters * c, shifted.to_bits())
             }
-        }
 
-        /// (remainder, quarter turns) of an angle that is not far from 0.
-        #[inline]
-        fn $reduce_near(angle: $float) -> ($float, $bits) {
-            let shifted = angle * core::$float::consts::FRAC_2_PI + $coefficients.round;
-            let quarters = shifted - $coefficients.round;
-            let [a, b, c] = $coefficients.quarter_turn;
-            (((angle - quarters * a) - quarters * b) - quarters * c, shifted.to_bits())
-        }
-
-        /// Of an angle that is not far from 0.
-        #[inline]
-        fn $near(angle: $float) -> ($float, $float) {
-            let (x, quadrant) = $reduce_near(angle);
-            $turned(x, quadrant)
-        }
-
-        /// Of an angle that may be far. It calls nothing: its frame is on top of that of a function that may be large.
-        #[cold]
-        #[inline(never)]
-        extern "C" fn $any(angle: $float) -> $single {
-            let (x, quadrant) =
-                if angle.abs() <= $coefficients.furthest { $reduce_near(angle) } else { $reduce_far(angle) };
-            $single($turned(x, quadrant).into())
-        }
-
-        #[cfg_attr(target_arch = "arm", inline(never))]
-        #[cfg_attr(not(target_arch = "arm"), inline)]
-        extern "C" fn $one(angle: $float) -> $single {
-            if angle.abs() <= $coefficients.furthest { $single($near(angle).into()) } else { $any(angle) }
-        }
-
-        #[doc = concat!("(sine, cosine) of an angle in rad with an error below ", $error, ". NaN for an angle that is not finite.")]
-        #[inline]
-        #[must_use]
-        pub fn $sin_cos(angle: $float) -> ($float, $float) {
-            $one(angle).0.into()
-        }
-
-        /// Of two angles: a call less, and one set of constants, where they are not inlined.
-        #[inline]
-        #[must_use]
-        pub fn $sin_cos_pair(first: $float, second: $float) -> $pair {
-            // here, so that far angles need neither the frame of near ones nor one of their own
-            let is_near = first.abs() + second.abs() <= $coefficients.furthest;
-            if !is_near {
-                $pair { first: $any(first).0, second: $any(second).0 }
-            } else if $has_pairs || cfg!(not(target_arch = "arm")) {
-                $near_pair(first, second)
-            } else {
-                $pair { first: $near_one(first).0, second: $near_one(second).0 }
+            /// Of an angle that is not far from 0.
+            #[inline]
+            fn near(angle: $float) -> ($float, $float) {
+                let (x, quadrant) = reduce_near(angle);
+                turned(x, quadrant)
             }
-        }
 
-        /// Of angles that are not far.
-        #[cfg_attr(target_arch = "arm", inline(never))]
-        #[cfg_attr(not(target_arch = "arm"), inline)]
-        extern "C" fn $near_pair(first: $float, second: $float) -> $pair {
-            $pair { first: $near(first).into(), second: $near(second).into() }
-        }
+            /// Of an angle that may be far. It calls nothing: its frame is on top of that of a function that may be large.
+            #[cold]
+            #[inline(never)]
+            pub extern "C" fn any(angle: $float) -> Single {
+                let size = angle.abs();
+                let (x, quadrant) = if size <= K.furthest { reduce_near(size) } else { reduce_far(size) };
+                let (sine, cosine) = turned(x, quadrant);
+                Single([if angle < 0.0 { -sine } else { sine }, cosine])
+            }
 
-        /// Of an angle that is not far: where 16 registers are all, one after the other needs no frame, and not more instructions.
-        #[inline(never)]
-        extern "C" fn $near_one(angle: $float) -> $single {
-            $single($near(angle).into())
+            /// Of a sum of angles that may be far: of the largest number, where it is beyond that and its terms are finite.
+            #[cold]
+            #[inline(never)]
+            pub extern "C" fn any_sum(sum: $float, terms: $float) -> Single {
+                any(if terms == 0.0 { sum.saturated() } else { sum })
+            }
+
+            /// 0 for finite terms of sums, else NaN.
+            #[inline]
+            pub fn terms<const N: usize, const M: usize>(some: [$float; N], others: &[$float; M]) -> $float {
+                let first = match some[..] {
+                    [only] => only,
+                    _ => some.iter().fold(0.0, |sum, angle| sum + angle * 0.0),
+                };
+                terms_with(first, others)
+            }
+
+            /// The same of one and others: out of line where registers are few.
+            #[cfg_attr(target_arch = "arm", cold, inline(never))]
+            #[cfg_attr(not(target_arch = "arm"), inline)]
+            #[allow(improper_ctypes_definitions, reason = "Rust alone calls it")]
+            extern "C" fn terms_with<const M: usize>(first: $float, others: &[$float; M]) -> $float {
+                others.iter().fold(first * 0.0, |sum, angle| sum + angle * 0.0)
+            }
+
+            #[cfg_attr(target_arch = "arm", inline(never))]
+            #[cfg_attr(not(target_arch = "arm"), inline)]
+            extern "C" fn one(angle: $float) -> Single {
+                if angle.abs() <= K.furthest { Single(near(angle).into()) } else { any(angle) }
+            }
+
+            #[doc = concat!("(sine, cosine) of an angle in rad with an error below ", $error, ". NaN for an angle that is not finite.")]
+            #[inline]
+            #[must_use]
+            pub fn sin_cos(angle: $float) -> ($float, $float) {
+                one(angle).0.into()
+            }
+
+            /// Of an angle; `any` is for one that may be far.
+            #[inline]
+            pub fn sin_cos_one(angle: $float, any: impl Fn($float) -> Single) -> Single {
+                if angle.abs() <= K.furthest { near_one(angle) } else { any(angle) }
+            }
+
+            /// Of two angles: a call less, and one set of constants, where they are not inlined.
+            #[inline]
+            pub fn sin_cos_pair(first: $float, second: $float, any: impl Fn($float) -> Single) -> Pair {
+                // here, so that far angles need neither the frame of near ones nor one of their own
+                let is_near = first.abs() + second.abs() <= K.furthest;
+                if !is_near {
+                    Pair { first: any(first).0, second: any(second).0 }
+                } else if $has_pairs || cfg!(not(target_arch = "arm")) {
+                    near_pair(first, second)
+                } else {
+                    Pair { first: near_one(first).0, second: near_one(second).0 }
+                }
+            }
+
+            /// Of angles that are not far.
+            #[cfg_attr(target_arch = "arm", inline(never))]
+            #[cfg_attr(not(target_arch = "arm"), inline)]
+            extern "C" fn near_pair(first: $float, second: $float) -> Pair {
+                Pair { first: near(first).into(), second: near(second).into() }
+            }
+
+            /// Of an angle that is not far: where 16 registers are all, one after the other needs no frame, and not more instructions.
+            #[cfg_attr(target_arch = "arm", inline(never))]
+            #[cfg_attr(not(target_arch = "arm"), inline)]
+            extern "C" fn near_one(angle: $float) -> Single {
+                Single(near(angle).into())
+            }
         }
     };
 }
 
-sines!(
-    f64,
-    u64,
-    DOUBLE,
-    turned_f64,
-    reduce_near_f64,
-    near_f64,
-    reduce_f64,
-    any_f64,
-    one_f64,
-    near_one_f64,
-    sin_cos_f64,
-    near_pair_f64,
-    false,
-    sin_cos_pair_f64,
-    SingleF64,
-    PairF64,
-    "3·10⁻¹⁶"
-);
-sines!(
-    f32,
-    u32,
-    SINGLE,
-    turned_f32,
-    reduce_near_f32,
-    near_f32,
-    reduce_f32,
-    any_f32,
-    one_f32,
-    near_one_f32,
-    sin_cos_f32,
-    near_pair_f32,
-    true,
-    sin_cos_pair_f32,
-    SingleF32,
-    PairF32,
-    "1.5·10⁻⁷"
-);
+sines!(double, f64, u64, DOUBLE, turned_f64, reduce_f64, false, "3·10⁻¹⁶");
+sines!(single, f32, u32, SINGLE, turned_f32, reduce_f32, true, "1.5·10⁻⁷");

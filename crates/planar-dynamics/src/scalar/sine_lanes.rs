@@ -61,7 +61,7 @@ double!(near_f64x4, f64x4, u64x4);
 /// Of all angles.
 #[cfg(feature = "lanes")]
 pub(crate) mod all {
-    use super::super::sine::{Coefficients, DOUBLE, SINGLE, sin_cos_f32, sin_cos_f64};
+    use super::super::sine::{self, Coefficients, DOUBLE, SINGLE};
     use super::near_f64x4;
     use bytemuck::cast;
     use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8, u32x4, u32x8, u32x16, u64x2, u64x8};
@@ -73,28 +73,34 @@ pub(crate) mod all {
     single!(near_f32x16, f32x16, u32x16);
 
     macro_rules! sin_cos {
-        ($name:ident, $near:ident, $far:ident, $lanes:ident, $scalar:ident) => {
-            /// (sine, cosine) of the angles in the lanes, rad.
+        ($name:ident, $near:ident, $far:ident, $lanes:ident, $sines:ident) => {
+            /// (sine, cosine) of the angles in the lanes, rad. `terms` are 0 where the angles are sums of finite ones: beyond
+            /// the largest number, they are then that number.
             #[inline]
-            pub(crate) fn $name(angle: $lanes) -> ($lanes, $lanes) {
+            pub(crate) fn $name(angle: $lanes, terms: impl FnOnce() -> $lanes) -> ($lanes, $lanes) {
                 let (pair, is_far) = $near(angle);
-                if is_far.any() { $far(angle) } else { pair }
+                if is_far.any() { $far(angle, terms()) } else { pair }
             }
 
             /// Lane by lane.
             #[cold]
             #[inline(never)]
-            fn $far(angle: $lanes) -> ($lanes, $lanes) {
-                let pairs = angle.to_array().map($scalar);
-                (pairs.map(|(sine, _)| sine).into(), pairs.map(|(_, cosine)| cosine).into())
+            fn $far(angle: $lanes, terms: $lanes) -> ($lanes, $lanes) {
+                let mut pairs = [angle.to_array(), terms.to_array()];
+                let [sines, cosines] = &mut pairs;
+                for (sine, cosine) in sines.iter_mut().zip(cosines) {
+                    let (angle, terms) = (*sine, *cosine);
+                    (*sine, *cosine) = sine::$sines::any_sum(angle, terms).into_tuple();
+                }
+                pairs.map($lanes::from).into()
             }
         };
     }
 
-    sin_cos!(sin_cos_f64x2, near_f64x2, far_f64x2, f64x2, sin_cos_f64);
-    sin_cos!(sin_cos_f64x4, near_f64x4, far_f64x4, f64x4, sin_cos_f64);
-    sin_cos!(sin_cos_f64x8, near_f64x8, far_f64x8, f64x8, sin_cos_f64);
-    sin_cos!(sin_cos_f32x4, near_f32x4, far_f32x4, f32x4, sin_cos_f32);
-    sin_cos!(sin_cos_f32x8, near_f32x8, far_f32x8, f32x8, sin_cos_f32);
-    sin_cos!(sin_cos_f32x16, near_f32x16, far_f32x16, f32x16, sin_cos_f32);
+    sin_cos!(sin_cos_f64x2, near_f64x2, far_f64x2, f64x2, double);
+    sin_cos!(sin_cos_f64x4, near_f64x4, far_f64x4, f64x4, double);
+    sin_cos!(sin_cos_f64x8, near_f64x8, far_f64x8, f64x8, double);
+    sin_cos!(sin_cos_f32x4, near_f32x4, far_f32x4, f32x4, single);
+    sin_cos!(sin_cos_f32x8, near_f32x8, far_f32x8, f32x8, single);
+    sin_cos!(sin_cos_f32x16, near_f32x16, far_f32x16, f32x16, single);
 }

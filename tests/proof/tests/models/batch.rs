@@ -56,6 +56,11 @@ fn instances(count: usize, arms: usize, joints: usize) -> Vec<Instance> {
             17 => targets[0].inertia = -1e12,  // the impact is singular, or has negative energy
             21 => lists[1][0] = 1e200,         // its square is infinite
             25 => targets[arms - 1].twist[0] = f64::NEG_INFINITY,
+            27 => {
+                // the sums of these are infinite
+                base[0] = f64::MIN;
+                lists[0].fill(f64::MIN);
+            }
             _ => {}
         }
         let [joint_angles, joint_rates, joint_torques] = lists;

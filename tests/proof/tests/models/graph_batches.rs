@@ -48,6 +48,11 @@ fn instances(layout: &Layout, count: usize, own_numbers: bool) -> Vec<Instance> 
             17 => targets[0] = Some(Target { inertia: -1e12, ..Target::massless() }), // the impact is singular
             21 => state.joint_rates[0] = 1e200,    // its square is infinite
             25 => targets[0] = Some(Target { twist: [f64::NEG_INFINITY; 3], ..Target::massless() }),
+            27 => {
+                // the sums of these are infinite
+                state.base_pose[0] = f64::MAX;
+                state.joint_angles.fill(f64::MAX);
+            }
             29 => state.base_pose[0] = -4e7,
             _ => {}
         }

@@ -7,6 +7,7 @@ mod closed_form;
 mod control;
 mod coordinates;
 mod equivalence;
+mod far_angles;
 mod float;
 mod generic;
 mod graph_batches;

@@ -184,11 +184,12 @@ fn function(graph: &Graph, family: &Family, function: &Function) -> Value {
         let mut checked: Vec<String> = Vec::new();
         for output in &stored {
             for (index, element) in output.elements.iter().enumerate() {
-                let value = scope.operand(element);
+                let (value, place) = (scope.operand(element), format!("{}[{index}]", output.name));
+                lines.push(format!("{place} = {};", scope.element_of(output, index, element)));
+                let value = if output.is_angle(index) { place } else { value };
                 if element.name().is_some() && !checked.contains(&value) {
-                    checked.push(value.clone());
+                    checked.push(value);
                 }
-                lines.push(format!("{}[{index}] = {value};", output.name));
             }
         }
         let pivot = outputs.iter().find(is_pivot).and_then(|output| output.elements.first());
@@ -236,6 +237,6 @@ fn yaws(graph: &Graph, (family, poses): (&Family, &Function)) -> Result<Value, S
     let stages = [(&configuration.sections[..], &configuration.statements[..]), (&poses.sections, &poses.statements)];
     let (sections, statements) = needed(&stages, &results);
     let lines = scope.lines(&sections, &statements, &results);
-    let values: Vec<String> = yaws.iter().map(|yaw| scope.operand(yaw)).collect();
+    let values: Vec<String> = yaws.iter().map(|yaw| Syntax::C.saturated(&scope.operand(yaw))).collect();
     Ok(json!({"statements": body(&[bindings(&lines, "model", Syntax::C), lines].concat()), "values": values}))
 }

@@ -10,7 +10,7 @@ const RESERVED: &str = "alignas alignof and and_eq asm auto bitand bitor bool ca
     nullptr operator or or_eq private protected public register reinterpret_cast requires restrict short signed sizeof \
     static_assert static_cast switch template this thread_local throw typedef typeid typename union unsigned using \
     void volatile wchar_t xor xor_eq \
-    arctangent check impact_equations is_finite jacobian minimum multiply_high parameters_check pivot real reduce reduction sin_cos sine_cosine \
+    arctangent check impact_equations is_finite jacobian minimum multiply_high no_sum parameters_check pivot real reduce reduction saturated sin_cos sine_cosine \
     square_root status zero";
 
 /// Names that are keywords, or that two things of a function have.
