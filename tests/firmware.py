@@ -358,8 +358,8 @@ LTO, C with `-O2 -ffp-contract=off`.
 - **Instructions** are executed ones, counted by QEMU (`-icount shift=0`), without the call itself: not cycles. They are
   the most of 900 states with angles up to 1,000 rad; *jitter* is the difference to the least of these. Every finite
   angle is valid; with *far* angles, up to the largest finite number, sines are reduced in integers, which takes longer:
-  the most of 100 such states. Where the sum of yaw and joint angles of a link is beyond the largest number, a function
-  that needs the sum says so.
+  the most of 100 such states. Where the sum of yaw and joint angles of a link is beyond the largest number, it counts
+  as that number.
 - **Stack** is painted, below the caller's own: the most of all these states. The library's integrator works in memory
   of the caller, three vectors of the state, which the example keeps with the state: 252 bytes in `f32`, 504 in `f64`.
 - **No panic** is proved by the linker: a program with all functions, library and module, links although its panic

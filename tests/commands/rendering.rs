@@ -56,9 +56,11 @@ fn paper_robot_is_within_its_operation_targets() {
     let text = plain("dual_arm_3r");
     let staged = |family: &str| operations(body(&text, &format!("pub fn {family}_configuration(")));
     let pairs = |family: &str| {
-        let (_, batch) =
-            body(&text, &format!("pub fn {family}_configuration(")).split_once("sin_cos_all([").expect("a batch");
-        batch[..batch.find("])").expect("its end")].split(", ").count()
+        let text = body(&text, &format!("pub fn {family}_configuration("));
+        let batches = ["sin_cos_all([", "sin_cos_of_sums(["];
+        let (_, batch) = batches.iter().find_map(|batch| text.split_once(batch)).expect("a batch");
+        let (angles, _) = batch.split_once("], [").or(batch.split_once("])")).expect("its end");
+        angles.split(", ").count()
     };
     let call = |family: &str, function: &str| {
         let methods = text.find(&format!("impl<T: Scalar> {family}Configuration<'_, T>")).expect("methods");

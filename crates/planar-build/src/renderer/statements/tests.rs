@@ -87,6 +87,34 @@ fn sines_and_cosines_of_angles() {
     assert_eq!(lines(&["i1 = add a b", "x,c1 = sin_cos i1"]), ["let (x, _) = (a + b).sin_cos();"]);
 }
 
+/// Sums of angles come first, with what they are sums of; an angle of the parameters is none.
+#[test]
+fn sines_and_cosines_of_sums() {
+    let all = statements(&[
+        "i1 = add base_pose[0] mount",
+        "i2 = add joint_angles[1] i1",
+        "s1,c1 = sin_cos base_pose[0]",
+        "s2,c2 = sin_cos i2",
+        "i3 = mul s1 s2",
+        "x = mul i3 c2",
+    ]);
+    let shapes = [("base_pose", &[3][..]), ("joint_angles", &[2])];
+    let parameters = HashSet::from(["mount"]);
+    let of = |syntax| Scope { syntax, inputs: shapes.into(), parameters: parameters.clone(), ..Scope::default() };
+    let rust = [
+        "let i2 = joint_angles[1] + (base_pose[0] + parameters.mount);",
+        "let [(s2, c2), (s1, _)] = T::sin_cos_of_sums([i2, base_pose[0]], [base_pose[0], parameters.mount], joint_angles);",
+        "let x = s1 * s2 * c2;",
+    ];
+    assert_eq!(of(Syntax::Rust).lines(&[], &all, &["x"]), rust);
+    let c = of(Syntax::C).lines(&[], &all, &["x"]).concat();
+    let terms = "const real terms_of_s2 = (base_pose[0] * zero) + (parameters->mount * zero) + (joint_angles[0] * zero) \
+                 + (joint_angles[1] * zero);";
+    assert!(c.contains(terms) && c.contains("of_s1 = sin_cos(base_pose[0], terms_of_s2);"), "{c}");
+    let alone = statements(&["s,x = sin_cos joint_angles[0]"]);
+    assert_eq!(of(Syntax::Rust).lines(&[], &alone, &["x"]), ["let (_, x) = joint_angles[0].sin_cos();"]);
+}
+
 #[test]
 fn fused_products_have_their_signs() {
     let fused = Scope { is_fused: true, ..Scope::default() };
