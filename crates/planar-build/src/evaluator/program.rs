@@ -111,28 +111,24 @@ fn uses(values: &Values, outputs: &[usize]) -> Vec<usize> {
 /// What angles of sines that are needed are sums of; nothing where none of them is a sum.
 fn terms(values: &Values, uses: &[usize]) -> Vec<usize> {
     let is_needed = |index: usize| uses[index] > 0 || uses[index + 1] > 0;
-    let mut angles: Vec<usize> = values
-        .all
-        .iter()
-        .enumerate()
-        .filter_map(|(index, value)| match value {
-            Value::Result { operation: Operation::SinCos, a, .. } => is_needed(index).then_some(*a),
-            _ => None,
-        })
-        .collect();
-    let (mut is_sum, mut terms) = (false, Vec::new());
-    while let Some(angle) = angles.pop() {
-        match values.all[angle] {
-            Value::Result { operation: Operation::Add, a, b } => {
-                is_sum = true;
-                angles.push(a);
-                angles.extend(b);
-            }
-            _ => terms.push(angle),
+    let mut is_part = vec![false; values.all.len()];
+    for (index, value) in values.all.iter().enumerate() {
+        if let Value::Result { operation: Operation::SinCos, a, .. } = value {
+            is_part[*a] |= is_needed(index);
         }
     }
-    terms.sort_unstable();
-    terms.dedup();
+    let (mut is_sum, mut terms) = (false, Vec::new());
+    // a sum stands after its terms
+    for index in (0..is_part.len()).rev() {
+        match values.all[index] {
+            _ if !is_part[index] => {}
+            Value::Result { operation: Operation::Add, a, b } => {
+                is_sum = true;
+                [Some(a), b].into_iter().flatten().for_each(|term| is_part[term] = true);
+            }
+            _ => terms.push(index),
+        }
+    }
     if is_sum { terms } else { Vec::new() }
 }
 

@@ -307,10 +307,11 @@ impl<'a> Scope<'a> {
 
     /// What angles are sums of; nothing where none is a sum.
     fn terms(&self, mut angles: Vec<&'a str>, assigned: &HashMap<&'a str, &'a Statement>) -> Option<Terms> {
-        let (mut is_sum, mut some) = (false, Vec::new());
+        let (mut is_sum, mut some, mut seen) = (false, Vec::new(), HashSet::new());
         while let Some(name) = angles.pop() {
             for source in self.sources(name) {
                 match assigned.get(source) {
+                    _ if !seen.insert(source) => {}
                     Some(statement) => {
                         is_sum |= statement.operation == Operation::Add;
                         angles.extend(statement.reads());
@@ -321,7 +322,6 @@ impl<'a> Scope<'a> {
             }
         }
         some.sort();
-        some.dedup();
         let count = self.inputs.get(JOINT_ANGLES)?.iter().product();
         is_sum.then_some(Terms { some, joints: JOINT_ANGLES, count })
     }

@@ -57,11 +57,13 @@ pub const DIGITS_SINGLE: [u32; 8] =
 /// 2³².
 const WORD: f64 = 4_294_967_296.0;
 
-/// The digits by bytes: words are read from any byte on, and what is left of the place is less than eight digits, by which
-/// the angle's integer is multiplied instead.
+/// The digits as bytes: words are read from a byte on, and the angle's integer is multiplied by what is left of the place,
+/// less than 2⁸.
 static BYTES: [u8; 152] = bytes(&DIGITS);
+/// Those for single precision.
 static BYTES_SINGLE: [u8; 32] = bytes(&DIGITS_SINGLE);
 
+/// The bytes of words, that with the first digits first.
 const fn bytes<const W: usize, const B: usize>(words: &[u32; W]) -> [u8; B] {
     let mut bytes = [0; B];
     let mut i = 0;
