@@ -103,7 +103,13 @@ fn program(modules: &Modules, real: &str) -> String {
     let graph = &modules.graph;
     let name = &modules.name;
     let functions = functions(graph);
-    let parameters = graph["parameters"].as_array().expect("parameters").len();
+    let parameters = graph["parameters"].as_array().expect("parameters");
+    let is_mass = |place: &usize| {
+        let quantity = parameters[*place]["quantity"].as_str().expect("a quantity");
+        quantity.ends_with("_mass") || quantity.ends_with("_inertia")
+    };
+    let masses: Vec<usize> = (0..parameters.len()).filter(is_mass).collect();
+    let parameters = parameters.len();
     let constants = graph["constants"]["values"].as_array().expect("constants").len();
     let mut declarations = String::new();
     let mut calls = String::new();
@@ -182,6 +188,7 @@ fn c_{index}(model: &CModel, x: &[Real]) -> (i32, Vec<Real>) {{
         .replace("@NAME@", name)
         .replace("@PARAMETERS@", &parameters.to_string())
         .replace("@CONSTANTS@", &constants.to_string())
+        .replace("@MASSES@", &format!("{masses:?}"))
         .replace("@JOINTS@", &joints.to_string())
         .replace("@ARMS@", &arms.to_string())
         .replace("@COUNT@", &count.to_string())
