@@ -369,8 +369,9 @@ LTO, C with `-O2 -ffp-contract=off`.
   none in its code."""
 
 OVER = "**Bold** numbers are over their budgets. They may not grow: `examples/firmware/bounds.json`."
-WITHIN = """Budgets are those of library and module for the paper's robot at opt-level 3; C, other layouts and other profiles are
-shown without. All numbers are within their budgets; one that is over fails the gate: `examples/firmware/bounds.json`."""
+WITHIN = """Budgets are those of library and module for the paper's robot at opt-level 3; C, other layouts and other
+profiles are shown without. All numbers are within their budgets; one that is over fails the gate:
+`examples/firmware/bounds.json`."""
 
 
 def main():
