@@ -3,8 +3,11 @@
 #![allow(clippy::inline_always, reason = "a call would pass all angles and results through memory")]
 
 use super::portable;
-use super::sine::double::{any, any_sum, terms};
+use super::sine::double::{any_sum, terms};
 use super::sine_lanes::near_f64x4;
+
+/// The terms of angles that are no sums: one that is infinite stays so.
+const NO_SUM: f64 = f64::NAN;
 
 /// (sine, cosine) of each angle, rad.
 #[inline(always)]
@@ -12,7 +15,7 @@ pub(super) fn sin_cos_all_f64<const N: usize>(angles: [f64; N]) -> [(f64, f64); 
     if N < 3 {
         return portable::sin_cos_all_f64(angles);
     }
-    of_each(angles, |a, b| one_by_one(a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]))
+    of_each(angles, |a, b| one_by_one(a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3], NO_SUM))
 }
 
 /// (sine, cosine) of sums, rad: `Scalar::sin_cos_of_sums`.
@@ -25,7 +28,7 @@ pub(super) fn sin_cos_of_sums_f64<const N: usize, const K: usize, const M: usize
     if N < 3 {
         return portable::sin_cos_of_sums_f64(sums, some, others);
     }
-    of_each(sums, |a, b| sum_by_sum(a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3], terms(some, others)))
+    of_each(sums, |a, b| one_by_one(a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3], terms(some, others)))
 }
 
 /// (sine, cosine) of each angle, rad; `far` is for eight of which any may be far.
@@ -81,15 +84,7 @@ fn four(angles: [f64; 4], far: impl Fn([f64; 4], [f64; 4]) -> Pairs) -> Pairs {
 /// The angles are not passed as arrays, which would keep them in memory wherever this may be called.
 #[cold]
 #[inline(never)]
-#[allow(clippy::too_many_arguments, clippy::many_single_char_names, reason = "eight registers")]
-fn one_by_one(a: f64, b: f64, c: f64, d: f64, e: f64, f: f64, g: f64, h: f64) -> Pairs {
-    [a, b, c, d, e, f, g, h].map(|angle| any(angle).into_tuple())
-}
-
-/// As [`one_by_one`].
-#[cold]
-#[inline(never)]
 #[allow(clippy::too_many_arguments, clippy::many_single_char_names, reason = "registers")]
-fn sum_by_sum(a: f64, b: f64, c: f64, d: f64, e: f64, f: f64, g: f64, h: f64, terms: f64) -> Pairs {
-    [a, b, c, d, e, f, g, h].map(|sum| any_sum(sum, terms).into_tuple())
+fn one_by_one(a: f64, b: f64, c: f64, d: f64, e: f64, f: f64, g: f64, h: f64, terms: f64) -> Pairs {
+    [a, b, c, d, e, f, g, h].map(|angle| any_sum(angle, terms).into_tuple())
 }
