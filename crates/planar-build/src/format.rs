@@ -224,6 +224,13 @@ pub struct FunctionResult<T = f64> {
 }
 
 impl Graph {
+    /// The masses and moments of inertia among the parameters, which are above 0: the mass matrix then is positive definite
+    /// in every configuration.
+    pub(crate) fn masses(&self) -> impl Iterator<Item = &Parameter> {
+        let is_mass = |quantity: &str| quantity.ends_with("_mass") || quantity.ends_with("_inertia");
+        self.parameters.iter().filter(move |parameter| is_mass(&parameter.quantity))
+    }
+
     /// The functions of all families.
     pub(crate) fn functions(&self) -> impl Iterator<Item = &Function> + Clone {
         self.families.iter().flat_map(|family| &family.functions)
@@ -241,7 +248,15 @@ impl Graph {
     }
 }
 
+/// The output that says how near to singular the system of a function is.
+pub const PIVOT: &str = "smallest_pivot";
+
 impl Function {
+    /// Whether it has an output that says how near to singular its system is.
+    pub fn has_pivot(&self) -> bool {
+        self.outputs.iter().any(|output| output.name == PIVOT)
+    }
+
     /// Whether rendered code computes it in loops, from its matrices.
     pub fn is_in_loops(&self) -> bool {
         !self.matrices.is_empty()

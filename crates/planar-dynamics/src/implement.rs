@@ -6,11 +6,11 @@
 #[doc(hidden)]
 #[macro_export]
 macro_rules! implement_dynamics {
-    (3) => {
-        $crate::implement_dynamics!(2);
+    (4) => {
+        $crate::implement_dynamics!(@one_by_one);
         $crate::implement_batch!();
     };
-    (2) => {
+    (@one_by_one) => {
         mod traits {
             use super::{ARMS, JOINTS, MANIFEST, Model, PARAMETERS, Parameters};
             use $crate::dynamics::{
@@ -71,14 +71,15 @@ macro_rules! implement_dynamics {
                     let jacobian = rows_mut("generalized_jacobian", generalized_jacobian)?;
                     let (pose, twist) = (&state.base_pose, &state.base_twist);
                     $crate::implement_dynamics!(@finite pose twist);
-                    let result = Model::reduced_dynamics(self, pose, angles, twist, rates);
+                    let result = Model::reduced_dynamics_with_pivot::<false>(self, pose, angles, twist, rates);
                     *inertia = result.generalized_inertia;
                     *bias = result.generalized_bias;
                     *jacobian = result.generalized_jacobian;
                     let pivot = result.smallest_pivot;
                     // the linear rows of the Jacobian depend on all angles, the bias on all rates and what is in the angular rows
                     let linear = jacobian.as_chunks::<3>().0.iter().map(|arm| arm[1..].as_flattened());
-                    if !are_regular_and_finite(pivot, linear, [bias, inertia.as_flattened()]) {
+                    let upper = inertia.iter().enumerate().map(|(index, row)| row.get(index..).unwrap_or_default());
+                    if !are_regular_and_finite(pivot, linear.chain(upper), [bias]) {
                         let found = objection::to_joints(angles, rates)
                             .or(|| objection::to_base_inertia(pivot))
                             .or(|| objection::to_reduced_dynamics(inertia, bias, jacobian));
@@ -115,12 +116,12 @@ macro_rules! implement_dynamics {
                 }
             }
 
-            $crate::implement_dynamics!(@accelerations under_torques forward_dynamics());
+            $crate::implement_dynamics!(@accelerations under_torques forward_dynamics_with_pivot());
             $crate::implement_dynamics!(
-                @accelerations under_a_base_wrench forward_dynamics_with_base_wrench(base_wrench: &[T; 3] => base_wrench)
+                @accelerations under_a_base_wrench forward_dynamics_with_base_wrench_with_pivot(base_wrench: &[T; 3] => base_wrench)
             );
             $crate::implement_dynamics!(
-                @accelerations under_wrenches forward_dynamics_with_wrenches(
+                @accelerations under_wrenches forward_dynamics_with_wrenches_with_pivot(
                     base_wrench: &[T; 3] => base_wrench, wrenches: &[[T; 3]; ARMS] => wrenches.as_flattened()
                 )
             );
@@ -153,7 +154,7 @@ macro_rules! implement_dynamics {
                     let (masses, inertias, contacts, twists) = by_arm(finite_targets(targets)?);
                     let pose = &state.base_pose;
                     let result =
-                        Model::reduced_impact(self, pose, angles, rates, &masses, &inertias, &contacts, &twists);
+                        Model::reduced_impact_with_pivot::<false>(self, pose, angles, rates, &masses, &inertias, &contacts, &twists);
                     pivot("the impact matrix G", result.smallest_pivot)?;
                     store("impact_matrix", result.impact_matrix.as_flattened(), impact_matrix)?;
                     store("impact_momentum", &result.impact_momentum, impact_momentum)?;
@@ -176,7 +177,7 @@ macro_rules! implement_dynamics {
                     // the targets' numbers are read after the sines, which would have to keep them
                     let configuration = Model::impact_configuration(self, pose, angles);
                     let (masses, inertias, contacts, twists) = by_arm(of_arms);
-                    let result = configuration.full_impact(twist, rates, &masses, &inertias, &contacts, &twists);
+                    let result = configuration.full_impact_with_pivot::<false>(twist, rates, &masses, &inertias, &contacts, &twists);
                     // copies: a result whose parts are borrowed would be kept in memory as a whole, with its matrix
                     let (base, after) = (result.base_twist_after, result.joint_rates_after);
                     *joints = after;
@@ -300,7 +301,7 @@ macro_rules! implement_dynamics {
             let (pose, twist) = (&state.base_pose, &state.base_twist);
             // neither pivot nor accelerations depend on place and velocity of the base, and on all else they do
             $crate::implement_dynamics!(@finite pose twist);
-            let result = Model::$function(model, pose, angles, twist, rates, torques $(, $wrench)*);
+            let result = Model::$function::<false>(model, pose, angles, twist, rates, torques $(, $wrench)*);
             let (base, of_joints) = (result.base_acceleration, result.joint_accelerations);
             // the angular acceleration of the base is a part of the first joint's
             if !is_regular_and_finite(result.smallest_pivot, [&base[1..], &of_joints]) {

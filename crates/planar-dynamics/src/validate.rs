@@ -1,6 +1,6 @@
 //! Checks of lengths and numbers between slices and straight-line code; public for generated code alone.
 
-pub use crate::scalar::finite::all_finite;
+pub use crate::scalar::finite::{all_finite, unless_finite};
 
 use crate::error::Error;
 use crate::linear::copy;
@@ -174,12 +174,6 @@ pub fn are_regular_and_finite<'a, T: Real + 'a, const N: usize>(
         return parts.fold(is_regular(smallest), |all, part| all & all_finite([part])) && all_finite(slices);
     }
     is_regular_and_finite(parts.fold(smallest, unless_finite), slices)
-}
-
-/// The sum with products that are 0, or none with a number that is not finite.
-#[inline]
-fn unless_finite<T: Real>(sum: T, values: &[T]) -> T {
-    values.iter().fold(sum, |sum, value| sum + *value * T::ZERO)
 }
 
 /// [`Error::Singular`] unless the smallest relative pivot exceeds 8 ε.

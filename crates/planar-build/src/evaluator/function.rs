@@ -6,7 +6,7 @@ use super::instruction::Register;
 use super::program::Program;
 use super::recorded::in_loops;
 use super::values::{Source, Value, Values};
-use crate::format::{Family, Function as GraphFunction, Graph, Operand};
+use crate::format::{Family, Function as GraphFunction, Graph, Operand, Operation, PIVOT};
 use std::cell::RefCell;
 use std::ops::Range;
 
@@ -122,6 +122,8 @@ impl Function {
         for (index, name) in of_model.chain(graph.constants.values.iter().map(|value| &value.name)).enumerate() {
             values.name(name.clone(), Value::Constant(Source::Model(index)));
         }
+        // after these
+        let regularity = values.constant(Source::Model(graph.parameters.len() + graph.constants.values.len()));
         let mut inputs = Vec::with_capacity(function.inputs.len());
         let mut elements = 0;
         for input in &function.inputs {
@@ -146,6 +148,12 @@ impl Function {
             }
             wanted = in_loops(&mut values, function, &wanted);
         }
+        if let Some(pivot) = function.outputs.iter().position(|output| output.name == PIVOT) {
+            let before = function.outputs[..pivot].iter().map(|output| output.elements.len()).sum::<usize>();
+            if let Some(element) = wanted.get_mut(before) {
+                *element = values.result(Operation::Add, *element, Some(regularity));
+            }
+        }
         let angles = function.outputs.iter().flat_map(|o| (0..o.elements.len()).map(|element| o.is_angle(element)));
         for (element, _) in wanted.iter_mut().zip(angles).filter(|(_, is_angle)| *is_angle) {
             *element = values.saturated(*element);
@@ -160,7 +168,7 @@ impl Function {
             index,
             program: Program::new(&values, elements, &wanted)?,
             elements: ranges,
-            pivot: function.outputs.iter().position(|output| output.name == "smallest_pivot"),
+            pivot: function.outputs.iter().position(|output| output.name == PIVOT),
             name: function.name.clone(),
             inputs,
             outputs: function.outputs.iter().map(Argument::new).collect(),

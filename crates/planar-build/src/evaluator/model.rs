@@ -51,9 +51,13 @@ impl Evaluator {
         }
         let program = values.extend(statements).and_then(|()| {
             let named = |constant: &Variable| Operand::Name(constant.name.clone());
-            let outputs =
-                constants.iter().map(|constant| values.operand(&named(constant))).collect::<Result<Vec<_>, _>>();
-            Program::new(&values, graph.parameters.len(), &outputs?)
+            let outputs = constants.iter().map(|constant| values.operand(&named(constant)));
+            let mut outputs = outputs.collect::<Result<Vec<_>, _>>()?;
+            let masses = graph.masses().map(|mass| values.operand(&Operand::Name(mass.name.clone())));
+            let masses = masses.collect::<Result<Vec<_>, _>>()?;
+            // after the graph's: what is added to every pivot
+            outputs.push(values.regularity(&masses));
+            Program::new(&values, graph.parameters.len(), &outputs)
         });
         let constants = program.map_err(GraphError::Format)?;
         let compiled = graph.functions_of_families().enumerate().map(|(index, (family, function))| {

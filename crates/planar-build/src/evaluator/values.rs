@@ -56,8 +56,24 @@ impl Values {
 
     /// Adds a number of the program.
     pub fn number(&mut self, number: f64) -> usize {
-        self.all.push(Value::Constant(Source::Number(number)));
+        self.constant(Source::Number(number))
+    }
+
+    /// Adds a constant that has no name.
+    pub fn constant(&mut self, source: Source) -> usize {
+        self.all.push(Value::Constant(source));
         self.all.len() - 1
+    }
+
+    /// Adds 0, or NaN where one of some values is 0, infinite or NaN: x / x is else 1.
+    pub fn regularity(&mut self, values: &[usize]) -> usize {
+        let (one, mut sum) = (self.number(1.0), self.number(0.0));
+        for value in values {
+            let quotient = self.result(Operation::Div, *value, Some(*value));
+            let difference = self.result(Operation::Sub, quotient, Some(one));
+            sum = self.result(Operation::Add, sum, Some(difference));
+        }
+        sum
     }
 
     /// Adds the result of an operation that has no name.

@@ -1,6 +1,6 @@
 //! Derivatives by dual numbers through the functions of a graph: the reference for those that the graph computes.
 
-use crate::format::{Derivative, FunctionResult, Given, Graph, ReferenceState, Variable};
+use crate::format::{Derivative, FunctionResult, Given, Graph, PIVOT, ReferenceState, Variable};
 use crate::prove::interpreter::{Arguments, interpret_some};
 use crate::prove::vectors::Reference;
 use planar_dynamics::scalar::Dual;
@@ -29,7 +29,7 @@ pub fn with_derivatives(
     let mut derived = Vec::new();
     for function in graph.functions() {
         for output in &function.outputs {
-            if let Some(derivative) = output.derivative.as_ref().filter(|_| output.name != "smallest_pivot") {
+            if let Some(derivative) = output.derivative.as_ref().filter(|_| output.name != PIVOT) {
                 let point = Point { graph, parameters, state: &state, roundings: &roundings, derivative };
                 let [values, sizes] = point.expected(output)?;
                 derived.push(FunctionResult {

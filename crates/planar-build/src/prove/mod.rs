@@ -35,13 +35,12 @@ mod vectors;
 pub use derivation::{DerivationError, derive, derive_by, home, package_hash};
 
 use crate::evaluator::Evaluator;
-use crate::format::{FunctionResult, ReferenceState};
+use crate::format::{FunctionResult, PIVOT, ReferenceState};
 use crate::graph::{self, Graph, GraphError};
 use crate::prove::sampling::{REGIMES, Regime};
 use derivatives::with_derivatives;
 use impact_results::EXACT;
 use interpreter::{Arguments, interpret, interpret_loops};
-use pivots::PIVOT;
 use planar_dynamics::error::Error;
 use planar_layout::layout::Layout;
 use planar_layout::structure::{Structure, parameters};

@@ -1,13 +1,10 @@
 //! The smallest pivots of a graph, which say that there is no result.
 
-use crate::format::{Function, FunctionResult, Given, Graph};
+use crate::format::{Function, FunctionResult, Given, Graph, PIVOT};
 use crate::graph::GraphError;
 use crate::prove::interpreter::{Arguments, interpret_loops, interpret_some};
 use planar_dynamics::manifest::ParameterKind;
 use planar_layout::structure::Structure;
-
-/// The output.
-pub const PIVOT: &str = "smallest_pivot";
 
 /// The function whose matrix has the size of the joints.
 const OF_JOINTS: &str = "reduced_impact";
@@ -79,8 +76,8 @@ fn wrong(function: &Function, what: &str) -> Result<(), GraphError> {
 
 /// The pivots of every function that has them.
 fn pivots<'a>(graph: &'a Graph, arguments: Arguments<'_>) -> Result<Vec<(&'a Function, Vec<f64>)>, GraphError> {
-    let has_pivot = |function: &Function| function.outputs.iter().any(|output| output.name == PIVOT);
-    let found = interpret_some(graph, arguments, &|_, _, value: f64| value, &has_pivot).map_err(GraphError::Format)?;
+    let scalar = |_: &str, _: usize, value: f64| value;
+    let found = interpret_some(graph, arguments, &scalar, &Function::has_pivot).map_err(GraphError::Format)?;
     let in_loops = interpret_loops(graph, arguments).map_err(GraphError::Format)?;
     let pivots = found.into_iter().chain(in_loops).filter(|found| found.output == PIVOT);
     let of_function = |found: FunctionResult| {

@@ -8,6 +8,7 @@ mod halves;
 mod loops;
 mod needed;
 mod pairs;
+mod pivot;
 mod statements;
 mod symmetry;
 mod syntax;
@@ -15,10 +16,11 @@ mod wrap;
 
 pub use c::{CModule, CText, CoSimulation, CoSimulationVariable, Role};
 
-use crate::format::{Family, Function, Graph, Parameter, ReferenceState, Variable};
+use crate::format::{Family, Function, Graph, PIVOT, Parameter, ReferenceState, Variable};
 use composites::{merged_links, steps};
 use halves::in_halves;
 use pairs::{Names, paired};
+use pivot::Pivot;
 use planar_dynamics::standalone::{IMPACT_EQUATIONS, PARTS};
 use planar_layout::diagnostic::printable;
 use planar_layout::layout::sha256;
@@ -149,11 +151,15 @@ fn context(graph: &Graph, module: &Module<'_>) -> Value {
     let links: Vec<usize> = graph.layout.arms.iter().map(|arm| arm.links).collect();
     let joints: usize = links.iter().sum();
     let constants: Vec<&str> = graph.constants.values.iter().map(|constant| constant.name.as_str()).collect();
-    let set_up = Scope::parameters(graph, Syntax::Rust).lines(&[], &graph.constants.statements, &constants);
+    let mut set_up = Scope::parameters(graph, Syntax::Rust).lines(&[], &graph.constants.statements, &constants);
+    set_up.extend(pivot::regularity(graph));
     let symmetry =
         if module.arithmetic.is_paired && !module.standalone { Symmetry::of(graph) } else { Symmetry::default() };
     let order = symmetry.side_by_side(&constants);
     let constant = |name: &&str| graph.constants.values.iter().find(|constant| constant.name == *name);
+    let mut fields: Vec<Value> = order.iter().filter_map(constant).map(|constant| json!(constant)).collect();
+    fields.push(pivot::field());
+    let names: Vec<Value> = fields.iter().map(|field| field["name"].clone()).collect();
     let families: Vec<_> =
         graph.families.iter().map(|family| render_family(graph, family, module, &symmetry)).collect();
     json!({
@@ -172,7 +178,7 @@ fn context(graph: &Graph, module: &Module<'_>) -> Value {
         "operations": doc_text::operations(graph),
         "parameter_names": graph.parameters.iter().map(|parameter| &parameter.name).collect::<Vec<_>>(),
         "parameters": graph.parameters.iter().map(parameter).collect::<Vec<_>>(),
-        "constants": {"statements": body(&set_up), "values": order.iter().filter_map(constant).collect::<Vec<_>>(), "names": order},
+        "constants": {"statements": body(&set_up), "values": fields, "names": names},
         "steps": steps(),
         "merged": merged_links(graph),
         "in_loops": graph.functions().any(Function::is_in_loops),
@@ -207,7 +213,7 @@ fn render_family(graph: &Graph, family: &Family, module: &Module<'_>, symmetry: 
     let shown: Vec<Value> = fields.iter().map(field).collect();
     let functions: Vec<Value> = (functions.iter())
         .map(|function| {
-            let mut rendered = render_function(graph, function, &fields, &names, is_fused, &symmetry);
+            let mut rendered = render_function(graph, family, function, &fields, &names, is_fused, &symmetry);
             rendered["in_one_piece"] =
                 module.standalone.then(|| in_one_piece(graph, family, function, is_fused)).into();
             rendered
@@ -228,6 +234,7 @@ fn render_family(graph: &Graph, family: &Family, module: &Module<'_>, symmetry: 
 
 fn render_function(
     graph: &Graph,
+    family: &Family,
     function: &Function,
     fields: &[&str],
     names: &Names,
@@ -244,7 +251,7 @@ fn render_function(
     if in_loops {
         lines.extend(loops::in_rust(function, &scope, is_fused));
     }
-    lines.extend(result(function, &scope));
+    lines.extend(result(graph, family, function, &scope));
     let single = outputs.len() == 1;
     let bindings = bindings(&lines, "self.model", Syntax::Rust);
     let inputs: Vec<Value> = function.inputs.iter().map(|name| variable(input(graph, name))).collect();
@@ -253,10 +260,12 @@ fn render_function(
     json!({
         "name": name,
         "docs": doc_text::function(function),
+        "has_pivot": function.has_pivot(),
         "struct": (!single).then(|| camel_case(name)),
         "result_type": if single { array_type(&outputs[0].shape, "T") } else { format!("{}<T>", camel_case(name)) },
         "outputs": outputs.iter().map(variable).collect::<Vec<_>>(),
         "inputs": inputs,
+        "names": function.inputs,
         "call_inputs": call_inputs,
         "call_names": call_names,
         "needs_model": !bindings.is_empty(),
@@ -268,22 +277,33 @@ fn render_function(
 /// The body of a function that does not go by way of a configuration, where it has halves.
 fn in_one_piece(graph: &Graph, family: &Family, function: &Function, is_fused: bool) -> Option<String> {
     let scope = Scope::constants(graph, Syntax::Rust, is_fused);
-    let lines = in_halves(family, function, &scope)?;
-    Some(body(&[lines, result(function, &scope)].concat()))
+    in_halves(family, function, &scope, result(graph, family, function, &scope)).map(|lines| body(&lines))
 }
 
-/// The expression of a function's result.
-fn result(function: &Function, scope: &Scope<'_>) -> Vec<String> {
+/// The expression of a function's result, after the lines that its pivot needs.
+fn result(graph: &Graph, family: &Family, function: &Function, scope: &Scope<'_>) -> Vec<String> {
     let Function { name, outputs, .. } = function;
     if let [output] = outputs.as_slice() {
         return vec![scope.array(output)];
     }
-    let field = |output: &Variable| {
-        let array = if function.is_in_loops() { String::new() } else { format!(": {}", scope.array(output)) };
-        format!("    {}{array},", output.name)
+    let in_loops = function.is_in_loops();
+    let element = |output: &Variable, index: usize| match output.elements.get(index) {
+        Some(element) if !in_loops => scope.element_of(output, index, element),
+        _ if output.shape.is_empty() => output.name.clone(),
+        _ => output.element(index),
     };
-    let fields = outputs.iter().map(field);
-    [format!("{} {{", camel_case(name))].into_iter().chain(fields).chain(["}".to_owned()]).collect()
+    let pivot = Pivot::of(graph, family, function, &element);
+    let field = |output: &Variable| match &pivot {
+        Some(pivot) if output.name == PIVOT => format!("    {PIVOT}: {},", pivot.value),
+        _ if in_loops => format!("    {},", output.name),
+        _ => format!("    {}: {},", output.name, scope.array(output)),
+    };
+    let fields: Vec<String> = outputs.iter().map(field).collect();
+    let mut lines = pivot.map_or_else(Vec::new, |pivot| pivot.lines);
+    lines.push(format!("{} {{", camel_case(name)));
+    lines.extend(fields);
+    lines.push("}".to_owned());
+    lines
 }
 
 /// The elements of an output that are computed, with those of the other arms, each once.

@@ -169,7 +169,11 @@ macro_rules! implement_batch {
                             let (state, torques) = (given.take::<T>(i), take(&given_torques, i));
                             let configuration =
                                 model.forward_dynamics_configuration(&state.base_pose, &state.joint_angles);
-                            let found = configuration.forward_dynamics(&state.base_twist, &state.joint_rates, &torques);
+                            let found = configuration.forward_dynamics_with_pivot::<false>(
+                                &state.base_twist,
+                                &state.joint_rates,
+                                &torques,
+                            );
                             put(&found.base_acceleration, &mut base, i);
                             put(&found.joint_accelerations, &mut joints, i);
                             let computed = zeros(&found.base_acceleration) + zeros(&found.joint_accelerations);
@@ -201,7 +205,8 @@ macro_rules! implement_batch {
                             let state = given.take::<T>(i);
                             let configuration =
                                 model.reduced_dynamics_configuration(&state.base_pose, &state.joint_angles);
-                            let found = configuration.reduced_dynamics(&state.base_twist, &state.joint_rates);
+                            let found = configuration
+                                .reduced_dynamics_with_pivot::<false>(&state.base_twist, &state.joint_rates);
                             put_matrix(&found.generalized_inertia, &mut inertia, i);
                             put(&found.generalized_bias, &mut bias, i);
                             put_matrix(&found.generalized_jacobian, &mut jacobian, i);
@@ -238,8 +243,13 @@ macro_rules! implement_batch {
                             let (state, target) = (given.take::<T>(i), given_targets.take::<T>(i));
                             let (masses, inertias, contacts, twists) = &target;
                             let configuration = model.impact_configuration(&state.base_pose, &state.joint_angles);
-                            let found =
-                                configuration.reduced_impact(&state.joint_rates, masses, inertias, contacts, twists);
+                            let found = configuration.reduced_impact_with_pivot::<false>(
+                                &state.joint_rates,
+                                masses,
+                                inertias,
+                                contacts,
+                                twists,
+                            );
                             put_matrix(&found.impact_matrix, &mut matrix, i);
                             put(&found.impact_momentum, &mut momentum, i);
                             put(&found.joint_rates_after, &mut rates, i);
@@ -276,8 +286,14 @@ macro_rules! implement_batch {
                             let (masses, inertias, contacts, twists) = &target;
                             let RobotState { base_pose, joint_angles, base_twist, joint_rates } = &state;
                             let configuration = model.impact_configuration(base_pose, joint_angles);
-                            let found =
-                                configuration.full_impact(base_twist, joint_rates, masses, inertias, contacts, twists);
+                            let found = configuration.full_impact_with_pivot::<false>(
+                                base_twist,
+                                joint_rates,
+                                masses,
+                                inertias,
+                                contacts,
+                                twists,
+                            );
                             put(&found.base_twist_after, &mut base, i);
                             put(&found.joint_rates_after, &mut rates, i);
                             let computed = zeros(&found.base_twist_after) + zeros(&found.joint_rates_after);
@@ -317,7 +333,11 @@ macro_rules! implement_batch {
                                 let (state, torques) = (stage.take::<T>(i), take(&given_torques, i));
                                 let RobotState { base_pose, joint_angles, base_twist, joint_rates } = &state;
                                 let configuration = model.forward_dynamics_configuration(base_pose, joint_angles);
-                                let found = configuration.forward_dynamics(base_twist, joint_rates, &torques);
+                                let found = configuration.forward_dynamics_with_pivot::<false>(
+                                    base_twist,
+                                    joint_rates,
+                                    &torques,
+                                );
                                 let slope = RobotState {
                                     base_pose: *base_twist,
                                     joint_angles: *joint_rates,

@@ -1,5 +1,6 @@
 //! Whether numbers are finite.
 
+use super::number::Scalar;
 use super::real::Real;
 
 /// Whether the numbers of all slices are finite: 0 x is 0 where x is, else NaN. There is no branch per number, and no call:
@@ -21,4 +22,11 @@ pub fn all_finite<T: Real, const N: usize>(slices: [&[T]; N]) -> bool {
         })
     };
     slices.into_iter().fold(None, products).is_none_or(|sum| sum == T::ZERO)
+}
+
+/// The sum with products that are 0, or none with a number that is not finite.
+#[inline]
+#[must_use]
+pub fn unless_finite<T: Scalar>(sum: T, values: &[T]) -> T {
+    values.iter().fold(sum, |sum, value| sum + *value * T::ZERO)
 }

@@ -4,13 +4,14 @@
 
 use crate::evaluator;
 use planar_capture::build::evaluator::{Batch, CallError, Evaluator, InstructionSet, Order, Status};
+use planar_capture::dynamics::ForwardDynamics;
 use planar_capture::error::Error;
 use planar_capture::evaluation::EvaluationInput;
 use planar_capture::layout::Layout;
 use planar_capture::owned::CloneModel;
 use planar_capture::registry;
 use planar_capture::sampling::REGIMES;
-use planar_capture::state::{Forces, State};
+use planar_capture::state::{Forces, RobotState, State};
 use planar_capture::structure::parameters;
 use planar_capture::target::Target;
 use planar_proof::file;
@@ -309,6 +310,37 @@ fn parameters_that_are_not_finite_are_given_so() {
     assert_eq!(statuses[0], Status::NotFinite);
     assert!(statuses[1..].iter().all(|status| *status == Status::Done));
     assert!(base[..3] == [UNTOUCHED; 3] && base[3..].iter().all(|number| *number != UNTOUCHED));
+}
+
+/// Of a massless link with a point mass after it the mass matrix is singular where both are in line: the pivots, of which
+/// the smallest is that of the base, do not show it.
+#[test]
+fn robots_with_a_mass_or_moment_of_inertia_of_zero_are_singular() {
+    let (evaluator, layout) = (evaluator("graphs", "dual_arm_2r"), layout("dual_arm_2r"));
+    let regular = parameters(evaluator.structure(), &layout).expect("its structure");
+    let is_mass = |name: &str| name.ends_with("_mass") || name.ends_with("_inertia");
+    let masses = evaluator.parameters().iter().enumerate().filter(|(_, parameter)| is_mass(&parameter.name));
+    let masses: Vec<usize> = masses.map(|(place, _)| place).collect();
+    assert_eq!(masses.len(), 10);
+    let robot = |place: &usize| {
+        let mut numbers = regular.clone();
+        numbers[*place] = 0.0;
+        numbers
+    };
+    let numbers: Vec<f64> = masses.iter().flat_map(robot).chain(regular.iter().copied()).collect();
+    let mut statuses = [Status::Done; 11];
+    let mut outputs = [None, None, None];
+    let inputs: [&[f64]; 5] = [&[0.1; 33], &[0.2; 44], &[0.3; 33], &[0.4; 44], &[0.5; 44]];
+    let batch = Batch::of_each(&evaluator, &numbers);
+    batch.call("forward_dynamics", &inputs, &mut outputs, &mut statuses).expect("arrays that fit");
+    assert!(statuses[..10].iter().all(|status| *status == Status::Singular), "{statuses:?}");
+    assert_eq!(statuses[10], Status::Done);
+    let state = RobotState { base_pose: [0.1; 3], joint_angles: [0.2; 4], base_twist: [0.3; 3], joint_rates: [0.4; 4] };
+    for place in &masses {
+        let model = evaluator.model_with(robot(place)).expect("as many");
+        let found = model.forward_dynamics(&state.view(), &Forces::torques(&[0.5; 4]), &mut [0.0; 4]);
+        assert!(matches!(found, Err(Error::Singular { .. })), "{found:?}");
+    }
 }
 
 #[test]

@@ -1,10 +1,14 @@
-//! A number that is not one shows: in the pivot of every generated function whose matrix has it, otherwise in a result.
+//! A number that is not one or is infinite shows in the pivot of every generated function that depends on it, and so does a
+//! mass or moment of inertia of 0.
 
+use planar_capture::dynamics::ForwardDynamics;
+use planar_capture::error::Error;
 use planar_capture::scalar::{Dual, Real, Scalar};
+use planar_capture::state::{Forces, RobotState};
 use planar_proof::for_every_layout;
 use std::array::from_fn;
 
-/// The inputs of generated functions, in their order, and those that a pivot has to show.
+/// The inputs of generated functions, in their order.
 const INPUTS: [&str; 11] = [
     "base_pose",
     "joint_angles",
@@ -18,16 +22,21 @@ const INPUTS: [&str; 11] = [
     "contacts",
     "target_twists",
 ];
-const OF_THE_ROBOT: &[&str] = &["joint_angles"];
-const OF_AN_IMPACT: &[&str] = &["joint_angles", "target_masses", "target_inertias", "contacts"];
 
-/// What a function is called, which inputs it has, which of them its pivot shows, pivot and results.
+/// What a function is called, which inputs it has, and its pivot.
 struct Call<T> {
     function: &'static str,
     inputs: &'static [&'static str],
-    shown: &'static [&'static str],
     pivot: T,
-    results: Vec<T>,
+}
+
+impl<T> Call<T> {
+    /// Whether a result depends on the element of an input: on positions and velocities of the whole robot, none but those
+    /// after an exact impact.
+    fn depends_on(&self, input: &str, element: usize) -> bool {
+        let is_absolute = ["base_pose", "base_twist"].contains(&input) && element > 0;
+        self.inputs.contains(&input) && (!is_absolute || (self.function == "full_impact" && input == "base_twist"))
+    }
 }
 
 macro_rules! pivots {
@@ -56,40 +65,27 @@ macro_rules! pivots {
                 let contacts: [[T; 2]; ARMS] = from_fn(|_| from_fn(|_| next()));
                 let twists: [[T; 3]; ARMS] = from_fn(|_| from_fn(|_| next()));
                 let mut calls = Vec::new();
-                let mut call = |function, inputs, shown, pivot, results: &[&[T]]| {
-                    calls.push(Call { function, inputs, shown, pivot, results: results.concat() });
-                };
+                let mut call = |function, inputs, pivot| calls.push(Call { function, inputs, pivot });
                 let r = model.forward_dynamics(&pose, &angles, &twist, &rates, &torques);
-                let results = [&r.base_acceleration[..], &r.joint_accelerations];
-                call("forward_dynamics", &INPUTS[..5], OF_THE_ROBOT, r.smallest_pivot, &results);
+                call("forward_dynamics", &INPUTS[..5], r.smallest_pivot);
                 let r = model.forward_dynamics_with_base_wrench(&pose, &angles, &twist, &rates, &torques, &wrench);
-                let results = [&r.base_acceleration[..], &r.joint_accelerations];
-                call("forward_dynamics_with_base_wrench", &INPUTS[..6], OF_THE_ROBOT, r.smallest_pivot, &results);
+                call("forward_dynamics_with_base_wrench", &INPUTS[..6], r.smallest_pivot);
                 let r = model
                     .forward_dynamics_with_wrenches(&pose, &angles, &twist, &rates, &torques, &wrench, &wrenches);
-                let results = [&r.base_acceleration[..], &r.joint_accelerations];
-                call("forward_dynamics_with_wrenches", &INPUTS[..7], OF_THE_ROBOT, r.smallest_pivot, &results);
+                call("forward_dynamics_with_wrenches", &INPUTS[..7], r.smallest_pivot);
                 let r = model.reduced_dynamics(&pose, &angles, &twist, &rates);
-                let results = [
-                    r.generalized_inertia.as_flattened(), &r.generalized_bias, r.generalized_jacobian.as_flattened(),
-                ];
-                call("reduced_dynamics", &INPUTS[..4], OF_THE_ROBOT, r.smallest_pivot, &results);
+                call("reduced_dynamics", &INPUTS[..4], r.smallest_pivot);
                 let r = model.generalized_jacobian(&pose, &angles);
-                let results = [r.generalized_jacobian.as_flattened()];
-                call("generalized_jacobian", &INPUTS[..2], OF_THE_ROBOT, r.smallest_pivot, &results);
+                call("generalized_jacobian", &INPUTS[..2], r.smallest_pivot);
                 let r = model.reduced_impact(&pose, &angles, &rates, &masses, &inertias, &contacts, &twists);
-                let of_targets = [&r.impact_matrix.as_flattened()[..], &r.impact_momentum, &r.joint_rates_after];
                 let inputs = &["base_pose", "joint_angles", "joint_rates", INPUTS[7], INPUTS[8], INPUTS[9], INPUTS[10]];
-                call("reduced_impact", inputs, OF_AN_IMPACT, r.smallest_pivot, &of_targets);
+                call("reduced_impact", inputs, r.smallest_pivot);
                 let r = model.full_impact(&pose, &angles, &twist, &rates, &masses, &inertias, &contacts, &twists);
-                let results = [
-                    r.impact_matrix.as_flattened(), &r.impact_momentum, &r.base_twist_after, &r.joint_rates_after,
-                ];
                 let inputs = &[
                     "base_pose", "joint_angles", "base_twist", "joint_rates", INPUTS[7], INPUTS[8], INPUTS[9],
                     INPUTS[10],
                 ];
-                call("full_impact", inputs, OF_AN_IMPACT, r.smallest_pivot, &results);
+                call("full_impact", inputs, r.smallest_pivot);
                 calls
             }
 
@@ -108,36 +104,68 @@ macro_rules! pivots {
             }
 
             #[test]
-            fn an_input_that_is_not_a_number_shows() {
-                assert!(calls(parameters(), &inputs()).iter().all(|call| call.pivot > 1e-3), "a state without NaN");
+            fn an_input_that_is_not_finite_shows() {
+                assert!(calls(parameters(), &inputs()).iter().all(|call| call.pivot > 1e-3), "a state of finite numbers");
                 for (place, (name, i)) in elements().enumerate() {
-                    let mut inputs = inputs();
-                    inputs[place] = f64::NAN;
-                    for Call { function, inputs, shown, pivot, results } in calls(parameters(), &inputs) {
-                        if shown.contains(&name) {
-                            assert!(pivot.is_nan(), "{function}: {name}[{i}] = NaN leaves a pivot of {pivot}");
-                        }
-                        // positions and velocities of the whole robot change nothing but momenta
-                        let absolute = ["base_pose", "base_twist"].contains(&name) && i > 0;
-                        if inputs.contains(&name) && !absolute {
-                            let seen = pivot.is_nan() || results.iter().any(|result| result.is_nan());
-                            assert!(seen, "{function}: {name}[{i}] = NaN leaves no trace");
+                    for number in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                        let mut inputs = inputs();
+                        inputs[place] = number;
+                        for call in calls(parameters(), &inputs) {
+                            let Call { function, pivot, .. } = call;
+                            let is_seen = pivot.is_nan();
+                            assert_eq!(is_seen, call.depends_on(name, i), "{function}: {name}[{i}] = {number}: {pivot}");
                         }
                     }
                 }
             }
 
+            /// The same by the functions of a configuration, and by one state of several.
             #[test]
-            fn a_parameter_that_is_not_a_number_shows() {
+            fn an_input_of_a_configuration_that_is_not_finite_shows() {
+                let model = Model::<f64>::default();
+                let (pose, angles) = ([0.3, 0.1, -0.2], [0.4; JOINTS]);
+                let configuration = model.forward_dynamics_configuration(&pose, &angles);
+                let pivot = |torque: f64| configuration.forward_dynamics(&[0.0; 3], &[0.0; JOINTS], &[torque; JOINTS]).smallest_pivot;
+                assert!(pivot(1.0) > 1e-3 && pivot(f64::NAN).is_nan() && pivot(f64::INFINITY).is_nan());
+            }
+
+            /// With a point mass whose joint is in line with a massless link before it, the mass matrix is singular in some
+            /// configurations; the base's pivot is not.
+            #[test]
+            fn a_mass_or_moment_of_inertia_of_zero_shows() {
+                use ParameterKind::{BaseInertia, BaseMass, LinkInertia, LinkMass};
                 for (place, parameter) in MANIFEST.parameters.iter().enumerate() {
-                    let mut values = parameters();
-                    values[place] = f64::NAN;
-                    // where an end effector is matters to what acts there alone
-                    let is_end = parameter.kind == ParameterKind::LinkLength
-                        && parameter.link + 1 == MANIFEST.links[parameter.arm];
-                    for Call { function, pivot, .. } in calls(values, &inputs()) {
-                        let shown = !is_end || function.ends_with("impact");
-                        assert!(pivot.is_nan() || !shown, "{function}: {} = NaN leaves a pivot of {pivot}", parameter.name);
+                    if ![BaseMass, BaseInertia, LinkMass, LinkInertia].contains(&parameter.kind) {
+                        continue;
+                    }
+                    for zero in [0.0, -0.0] {
+                        let mut values = parameters();
+                        values[place] = zero;
+                        for Call { function, pivot, .. } in calls(values, &inputs()) {
+                            assert!(pivot.is_nan(), "{function}: {} = {zero} leaves a pivot of {pivot}", parameter.name);
+                        }
+                        let (model, mut accelerations) = (Model::new(Parameters::from_array(values)), [0.0; JOINTS]);
+                        let state = RobotState { joint_angles: [0.4; JOINTS], joint_rates: [0.1; JOINTS], base_pose: [0.0; 3], base_twist: [0.0; 3] };
+                        let torques = [1.0; JOINTS];
+                        let found = ForwardDynamics::forward_dynamics(&model, &state.view(), &Forces::torques(&torques), &mut accelerations);
+                        assert!(matches!(found, Err(Error::Singular { .. })), "{}: {found:?}", parameter.name);
+                    }
+                }
+            }
+
+            #[test]
+            fn a_parameter_that_is_not_finite_shows() {
+                for (place, parameter) in MANIFEST.parameters.iter().enumerate() {
+                    for number in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                        let mut values = parameters();
+                        values[place] = number;
+                        // where an end effector is matters to what acts there alone
+                        let is_end = parameter.kind == ParameterKind::LinkLength
+                            && parameter.link + 1 == MANIFEST.links[parameter.arm];
+                        for Call { function, pivot, .. } in calls(values, &inputs()) {
+                            let matters = !is_end || !["forward_dynamics", "forward_dynamics_with_base_wrench"].contains(&function);
+                            assert_eq!(pivot.is_nan(), matters, "{function}: {} = {number}: {pivot}", parameter.name);
+                        }
                     }
                 }
             }
@@ -153,7 +181,7 @@ macro_rules! pivots {
                     for (call, clean) in calls(parameters().map(f64x4::splat), &inputs).iter().zip(&clean) {
                         let [first, second, ..] = call.pivot.to_array();
                         let function = call.function;
-                        assert!(second.is_nan() || !call.shown.contains(&name), "{function}: {name}[{i}] = NaN: {second}");
+                        assert_eq!(second.is_nan(), call.depends_on(name, i), "{function}: {name}[{i}] = NaN: {second}");
                         assert_eq!(first.to_bits(), clean.pivot.to_array()[0].to_bits(), "{function}: {name}[{i}]");
                     }
                 }

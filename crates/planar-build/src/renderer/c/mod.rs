@@ -13,7 +13,7 @@ use super::needed::needed;
 use super::statements::{Scope, bindings};
 use super::syntax::Syntax;
 use super::{doc_text, headed, indented, input, templates, wrap};
-use crate::format::{Family, Function, Graph, Operand, Parameter, Variable};
+use crate::format::{Family, Function, Graph, Operand, PIVOT, Variable};
 use names::check_names;
 use planar_layout::diagnostic::{excerpt, printable};
 use self_test::self_test;
@@ -123,7 +123,7 @@ fn context(graph: &Graph, module: &CModule<'_>) -> Result<Value, String> {
             })).collect::<Vec<_>>(),
             "check": sum_of_zeros("check", &of_constants),
             "parameters_check": sum_of_zeros("parameters_check", &parameters),
-            "masses": graph.parameters.iter().filter(|parameter| is_mass(parameter)).map(|p| &p.name).collect::<Vec<_>>(),
+            "masses": graph.masses().map(|mass| &mass.name).collect::<Vec<_>>(),
         },
         "has_square_root": uses("square_root("),
         "has_arctangent": uses("arctangent("),
@@ -136,11 +136,6 @@ fn context(graph: &Graph, module: &CModule<'_>) -> Result<Value, String> {
         "sine": sine::constants(),
         "self_test": graph.self_test.as_ref().map(|states| self_test(graph, states)),
     }))
-}
-
-/// Whether it is a mass or a moment of inertia.
-fn is_mass(parameter: &Parameter) -> bool {
-    parameter.quantity.ends_with("_mass") || parameter.quantity.ends_with("_inertia")
 }
 
 fn named(name: &str) -> Operand {
@@ -178,7 +173,7 @@ fn function(graph: &Graph, family: &Family, function: &Function) -> Value {
     let stages = [(&configuration.sections[..], &configuration.statements[..]), (sections, statements)];
     let (sections, statements) = needed(&stages, &results);
     let mut lines = scope.lines(&sections, &statements, &results);
-    let is_pivot = |output: &&Variable| output.name == "smallest_pivot";
+    let is_pivot = |output: &&Variable| output.name == PIVOT;
     let stored: Vec<&Variable> = outputs.iter().filter(|output| !is_pivot(output)).collect();
     let (pivot, check) = if function.is_in_loops() {
         let (in_loops, pivot) = loops::in_c(function, &scope);

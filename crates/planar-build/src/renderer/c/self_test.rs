@@ -1,6 +1,6 @@
 //! Inputs and results of the own test of a module in C.
 
-use crate::format::{Graph, ReferenceState, Variable};
+use crate::format::{Graph, PIVOT, ReferenceState, Variable};
 use serde_json::{Value, json};
 
 /// The tables, and where the results of an impact are in theirs.
@@ -19,7 +19,7 @@ pub fn self_test(graph: &Graph, states: &[ReferenceState]) -> Value {
     });
     let functions = graph.functions();
     let functions = functions.map(|function| {
-        let stored: Vec<&Variable> = function.outputs.iter().filter(|o| o.name != "smallest_pivot").collect();
+        let stored: Vec<&Variable> = function.outputs.iter().filter(|o| o.name != PIVOT).collect();
         let mut places = Vec::new();
         let mut length = 0;
         for output in &stored {
