@@ -362,6 +362,9 @@ LTO, C with `-O2 -ffp-contract=off`.
   as that number. PD control, whose torques would be infinite at most of these, then ends before the step.
 - **Stack** is painted, below the caller's own: the most of all these states. The library's integrator works in memory
   of the caller, three vectors of the state, which the example keeps with the state: 252 bytes in `f32`, 504 in `f64`.
+- **Inputs that have no result.** The `smallest_pivot` of a module's functions is not a number where an input or a
+  parameter that a result depends on is infinite or none, or a mass or moment of inertia is 0. The traits of the
+  library, steps, merging and impulses have an error or a status, and so has C: `NAME_model_new` refuses such a robot.
 - **No panic** is proved by the linker: a program with all functions, library and module, links although its panic
   handler calls a function that does not exist. The same for every part of the core (`tests/no_std`). At opt-level 3 and
   s, and z by `--all`; at 3 also with overflow checks, for all but the self test.

@@ -162,7 +162,8 @@ fn a_standalone_module_compiles_alone_and_passes_its_own_test() {
     assert_eq!(code, 0, "{err}");
 
     // a number that is off by 1e-9, a pivot that says nothing, a manifest that says something else
-    let pivot = text.lines().find(|line| line.trim_start().starts_with("smallest_pivot: t")).expect("a pivot");
+    let pivot =
+        text.lines().find(|line| line.trim_start().starts_with("smallest_pivot: smallest_pivot + ")).expect("a pivot");
     for (right, wrong) in [
         ("base_mass: T::constant(210.0)", "base_mass: T::constant(210.00000021)"),
         (pivot, "smallest_pivot: T::constant(0.5),"),

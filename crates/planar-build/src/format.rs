@@ -252,9 +252,14 @@ impl Graph {
 pub const PIVOT: &str = "smallest_pivot";
 
 impl Function {
-    /// Whether it has an output that says how near to singular its system is.
+    /// What says how near to singular its system is, where it solves one.
+    pub fn pivot(&self) -> Option<&Operand> {
+        self.outputs.iter().find(|output| output.name == PIVOT)?.elements.first()
+    }
+
+    /// Whether it has an output that says so.
     pub fn has_pivot(&self) -> bool {
-        self.outputs.iter().any(|output| output.name == PIVOT)
+        self.pivot().is_some()
     }
 
     /// Whether rendered code computes it in loops, from its matrices.

@@ -1,6 +1,6 @@
 //! Checks of lengths and numbers between slices and straight-line code; public for generated code alone.
 
-pub use crate::scalar::finite::{all_finite, unless_finite};
+pub use crate::scalar::finite::{all_finite, regularity, unless_finite};
 
 use crate::error::Error;
 use crate::linear::copy;

@@ -77,8 +77,8 @@ impl<'e> Batch<'e> {
     /// those of a layout are given by [`parameters`](planar_layout::structure::parameters). What follows from the
     /// parameters alone is computed for each instance, which takes about half as long as forward dynamics.
     ///
-    /// Parameters are not checked beyond being finite: with a mass below 0 the system is singular or the motion
-    /// impossible.
+    /// Of functions with a pivot, instances with a mass or moment of inertia of 0 are [`Singular`](Status::Singular). With
+    /// one below 0 the system is singular or the motion impossible; that is not looked for.
     #[must_use]
     pub fn of_each(evaluator: &'e Evaluator, parameters: &'e [f64]) -> Self {
         Self::new(evaluator, Robots::Each(parameters))

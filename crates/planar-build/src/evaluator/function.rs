@@ -122,8 +122,6 @@ impl Function {
         for (index, name) in of_model.chain(graph.constants.values.iter().map(|value| &value.name)).enumerate() {
             values.name(name.clone(), Value::Constant(Source::Model(index)));
         }
-        // after these
-        let regularity = values.constant(Source::Model(graph.parameters.len() + graph.constants.values.len()));
         let mut inputs = Vec::with_capacity(function.inputs.len());
         let mut elements = 0;
         for input in &function.inputs {
@@ -150,6 +148,8 @@ impl Function {
         }
         if let Some(pivot) = function.outputs.iter().position(|output| output.name == PIVOT) {
             let before = function.outputs[..pivot].iter().map(|output| output.elements.len()).sum::<usize>();
+            // after the graph's
+            let regularity = values.constant(Source::Model(graph.parameters.len() + graph.constants.values.len()));
             if let Some(element) = wanted.get_mut(before) {
                 *element = values.result(Operation::Add, *element, Some(regularity));
             }

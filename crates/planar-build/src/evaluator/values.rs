@@ -65,15 +65,14 @@ impl Values {
         self.all.len() - 1
     }
 
-    /// Adds 0, or NaN where one of some values is 0, infinite or NaN: x / x is else 1.
-    pub fn regularity(&mut self, values: &[usize]) -> usize {
-        let (one, mut sum) = (self.number(1.0), self.number(0.0));
-        for value in values {
-            let quotient = self.result(Operation::Div, *value, Some(*value));
-            let difference = self.result(Operation::Sub, quotient, Some(one));
-            sum = self.result(Operation::Add, sum, Some(difference));
-        }
-        sum
+    /// Adds the [`regularity`](planar_dynamics::validate::regularity) of masses and moments of inertia.
+    pub fn regularity(&mut self, masses: &[usize]) -> usize {
+        let zero = self.number(0.0);
+        let sum = masses.iter().fold(zero, |sum, mass| {
+            let quotient = self.result(Operation::Div, *mass, Some(*mass));
+            self.result(Operation::Add, sum, Some(quotient))
+        });
+        self.result(Operation::Mul, sum, Some(zero))
     }
 
     /// Adds the result of an operation that has no name.

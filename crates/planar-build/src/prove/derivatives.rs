@@ -8,16 +8,17 @@ use planar_dynamics::scalar::Dual;
 /// Rounding units that a derivative may be off, in those of the function: a solution enters another system of equations.
 const FACTOR: f64 = 4.0;
 
-/// The state with the graph's derivatives among the expected results, and with a direction in its inputs.
+/// The reference with the graph's derivatives among the expected results, and with a direction in its inputs.
 ///
 /// # Errors
 /// What the graph lacks.
 pub fn with_derivatives(
     graph: &Graph,
-    (reference, parameters): (Reference, &[f64]),
+    reference: Reference,
+    parameters: &[f64],
     direction: &[Given],
-) -> Result<ReferenceState, String> {
-    let Reference { mut state, roundings, .. } = reference;
+) -> Result<Reference, String> {
+    let Reference { layout, mut state, mut roundings } = reference;
     let directions = graph.inputs.iter().filter_map(|input| {
         let of = input.name.strip_suffix("_direction")?;
         Some(Given {
@@ -26,12 +27,14 @@ pub fn with_derivatives(
         })
     });
     state.inputs.extend(directions);
-    let mut derived = Vec::new();
+    let (mut derived, mut allowed) = (Vec::new(), Vec::new());
     for function in graph.functions() {
         for output in &function.outputs {
             if let Some(derivative) = output.derivative.as_ref().filter(|_| output.name != PIVOT) {
                 let point = Point { graph, parameters, state: &state, roundings: &roundings, derivative };
-                let [values, sizes] = point.expected(output)?;
+                let rows = point.rows()?;
+                let [values, sizes] = point.expected(output, &rows)?;
+                allowed.push(FACTOR * rows.iter().fold(0.0, |most: f64, row| most.max(row.roundings)));
                 derived.push(FunctionResult {
                     function: function.name.clone(),
                     output: output.name.clone(),
@@ -42,7 +45,8 @@ pub fn with_derivatives(
         }
     }
     state.expected.extend(derived);
-    Ok(state)
+    roundings.extend(allowed);
+    Ok(Reference { layout, state, roundings })
 }
 
 fn values_of(given: &[Given], name: &str) -> Option<Vec<f64>> {
@@ -69,9 +73,8 @@ impl Point<'_> {
     ///
     /// An entry's natural size is that of its row, the result that is derived, times the largest entry of all columns of
     /// the same input in units of their rows; the largest entry itself for a row that has no size, as momenta at rest.
-    fn expected(&self, output: &Variable) -> Result<[Vec<f64>; 2], String> {
+    fn expected(&self, output: &Variable, rows: &[Row]) -> Result<[Vec<f64>; 2], String> {
         let Derivative { by, along, .. } = self.derivative;
-        let rows = self.rows()?;
         if by.is_empty() && along.is_empty() {
             return Ok([rows.iter().map(|row| row.value).collect(), rows.iter().map(|row| row.size).collect()]);
         }
@@ -83,9 +86,9 @@ impl Point<'_> {
             let count = self.given(input)?.len();
             let block = (0..count).map(|i| self.column(&|name, k| if name == input && k == i { 1.0 } else { 0.0 }));
             let block = block.collect::<Result<Vec<_>, _>>()?;
-            let largest = Largest::of(&block, &rows);
+            let largest = Largest::of(&block, rows);
             for (i, column) in block.iter().enumerate() {
-                for (j, (value, row)) in column.iter().zip(&rows).enumerate() {
+                for (j, (value, row)) in column.iter().zip(rows).enumerate() {
                     let place = j * columns + first + i;
                     let (Some(into), Some(size)) = (values.get_mut(place), sizes.get_mut(place)) else {
                         return Err(format!("`{}` has fewer columns than it is derived by", output.name));
@@ -99,8 +102,8 @@ impl Point<'_> {
             let direction = self.given(&format!("{input}_direction"))?;
             let part =
                 self.column(&|name, k| if name == input { direction.get(k).copied().unwrap_or(0.0) } else { 0.0 })?;
-            let largest = Largest::of(std::slice::from_ref(&part), &rows);
-            for ((into, size), (value, row)) in values.iter_mut().zip(&mut sizes).zip(part.iter().zip(&rows)) {
+            let largest = Largest::of(std::slice::from_ref(&part), rows);
+            for ((into, size), (value, row)) in values.iter_mut().zip(&mut sizes).zip(part.iter().zip(rows)) {
                 *into += value;
                 *size += FACTOR * largest.size(row);
             }

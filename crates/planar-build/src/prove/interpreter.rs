@@ -20,6 +20,19 @@ pub fn interpret(graph: &Graph, arguments: Arguments<'_>) -> Result<Vec<Function
     interpret_some(graph, arguments, &|_, _, value: f64| value, &|_| true)
 }
 
+/// As [`interpret`], in single precision.
+///
+/// # Errors
+/// As [`interpret`].
+pub fn interpret_in_single_precision(graph: &Graph, arguments: Arguments<'_>) -> Result<Vec<FunctionResult>, String> {
+    let found = interpret_some(graph, arguments, &|_, _, value| f32::constant(value), &|_| true)?;
+    let double = |FunctionResult { function, output, values, sizes }| {
+        let values = values.into_iter().map(f64::from).collect();
+        FunctionResult { function, output, values, sizes }
+    };
+    Ok(found.into_iter().map(double).collect())
+}
+
 /// The results of the functions that rendered code computes in loops, as it does: from their matrices.
 ///
 /// # Errors

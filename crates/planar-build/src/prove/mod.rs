@@ -40,13 +40,13 @@ use crate::graph::{self, Graph, GraphError};
 use crate::prove::sampling::{REGIMES, Regime};
 use derivatives::with_derivatives;
 use impact_results::EXACT;
-use interpreter::{Arguments, interpret, interpret_loops};
+use interpreter::{Arguments, interpret, interpret_in_single_precision, interpret_loops};
 use planar_dynamics::error::Error;
 use planar_layout::layout::Layout;
 use planar_layout::structure::{Structure, parameters};
 use serde_json::json;
 use std::fmt;
-use vectors::{direction, reference_state};
+use vectors::{Reference, direction, reference_state};
 
 /// States of each regime that a graph is proved at.
 const SAMPLES: u64 = 3;
@@ -134,13 +134,17 @@ pub fn complete(graph_text: &str, layout: &Layout) -> Result<Proved, GenerateErr
     }
     let proof = prove(layout, &graph)?;
     let structure = graph::structure(&graph)?;
-    let states = (0..CARRIED).map(|index| {
-        let (state, parameters) = sample(layout, (&graph, &structure), Regime::Moving, index)?;
-        let arguments = Arguments { inputs: &state.inputs, parameters: &parameters };
-        let found = interpret(&graph, arguments).map_err(GraphError::Format)?;
-        Ok(state.in_order_of(&found))
-    });
-    let states = states.collect::<Result<Vec<ReferenceState>, GenerateError>>()?;
+    let (mut references, mut found) = (Vec::new(), Vec::new());
+    for index in 0..CARRIED {
+        let (reference, parameters) = sample(layout, (&graph, &structure), Regime::Moving, index)?;
+        let arguments = Arguments { inputs: &reference.state.inputs, parameters: &parameters };
+        let single = interpret_in_single_precision(&graph, arguments).map_err(GraphError::Format)?;
+        found.push([interpret(&graph, arguments).map_err(GraphError::Format)?, single]);
+        references.push(reference);
+    }
+    Reference::narrow(&mut references, &found);
+    let states = references.iter().zip(&found).map(|(reference, [found, _])| reference.state.in_order_of(found));
+    let states: Vec<ReferenceState> = states.collect();
     // a state a line, after what the derivation wrote
     let lines: Vec<String> = states.iter().map(|state| json!(state).to_string()).collect();
     let lines = lines.join(",\n  ");
@@ -164,7 +168,7 @@ pub fn prove(layout: &Layout, graph: &Graph) -> Result<Proof, GenerateError> {
     let mut proof = Proof { states: 0, results: 0, worst: 0.0 };
     for regime in REGIMES {
         for index in 0..SAMPLES {
-            let (state, parameters) = sample(layout, (graph, structure), regime, index)?;
+            let (Reference { state, .. }, parameters) = sample(layout, (graph, structure), regime, index)?;
             let arguments = Arguments { inputs: &state.inputs, parameters: &parameters };
             let mut found = interpret(graph, arguments).map_err(GraphError::Format)?;
             found.retain(|found| found.output != PIVOT);
@@ -175,7 +179,8 @@ pub fn prove(layout: &Layout, graph: &Graph) -> Result<Proof, GenerateError> {
             let in_loops = interpret_loops(graph, arguments).map_err(GraphError::Format)?;
             found.extend(in_loops.into_iter().filter(|found| found.output != PIVOT));
             for found in found {
-                let error = state.expected(&found).map_or(f64::INFINITY, |expected| expected.error(&found));
+                let error =
+                    state.expected(&found).map_or(f64::INFINITY, |expected| expected.error(&found, f64::EPSILON));
                 if error > 1.0 {
                     let FunctionResult { function, output, .. } = found;
                     return Err(GenerateError::Disagreement { function, output, error, regime: regime.name(), index });
@@ -186,7 +191,7 @@ pub fn prove(layout: &Layout, graph: &Graph) -> Result<Proof, GenerateError> {
             proof.results = state.expected.len();
         }
     }
-    let (state, parameters) = sample(layout, (graph, structure), Regime::Moving, 0)?;
+    let (Reference { state, .. }, parameters) = sample(layout, (graph, structure), Regime::Moving, 0)?;
     pivots::check(graph, structure, Arguments { inputs: &state.inputs, parameters: &parameters })?;
     Ok(proof)
 }
@@ -198,13 +203,13 @@ fn sample(
     (graph, structure): (&Graph, &Structure),
     regime: Regime,
     index: u64,
-) -> Result<(ReferenceState, Vec<f64>), GenerateError> {
+) -> Result<(Reference, Vec<f64>), GenerateError> {
     let failed = |source| GenerateError::NoReference { regime: regime.name(), index, source };
     let mut functions = graph.functions();
     let has_impact_results = functions.any(|function| function.name == EXACT);
     let reference = reference_state(layout, regime, index, has_impact_results).map_err(failed)?;
     let parameters = parameters(structure, &reference.layout)
         .map_err(|_| GraphError::Format("its structure is not the layout's".to_owned()))?;
-    let state = with_derivatives(graph, (reference, &parameters), &direction(layout, index));
-    Ok((state.map_err(GraphError::Format)?, parameters))
+    let reference = with_derivatives(graph, reference, &parameters, &direction(layout, index));
+    Ok((reference.map_err(GraphError::Format)?, parameters))
 }

@@ -6,9 +6,6 @@ use crate::prove::interpreter::{Arguments, interpret_loops, interpret_some};
 use planar_dynamics::manifest::ParameterKind;
 use planar_layout::structure::Structure;
 
-/// The function whose matrix has the size of the joints.
-const OF_JOINTS: &str = "reduced_impact";
-
 /// Inputs that enter the system of equations of a function that has them.
 const ENTERING: [&str; 4] = ["joint_angles", "target_masses", "target_inertias", "contacts"];
 
@@ -28,8 +25,7 @@ pub fn check(graph: &Graph, structure: &Structure, arguments: Arguments<'_>) -> 
         }
     }
     // relative to itself the one element of a matrix is 1, whatever it is: then results alone show it
-    let has_one_joint = structure.links.iter().sum::<usize>() == 1;
-    let is_shown = |function: &Function| function.name != OF_JOINTS || !has_one_joint;
+    let is_shown = |function: &Function| function.pivot().is_some_and(|pivot| pivot.name().is_some());
     for (place, (kind, arm, link)) in structure.parameters.iter().enumerate() {
         let mut parameters = arguments.parameters.to_vec();
         parameters[place] = f64::NAN;

@@ -15,6 +15,11 @@ use planar_layout::layout::Layout;
 /// Rounding units that a pivot relative to its scale may be off.
 const PIVOT_ROUNDINGS: f64 = 1024.0;
 
+/// What a module may be off by in its own test, over the largest error that a graph has in either precision, and no less
+/// in natural sizes: rounding depends on the compiler, too, by the order of operations, and by products that are fused
+/// with sums.
+const MARGIN: f64 = 16.0;
+
 /// Results at a state, and how many rounding units each of them may be off in natural sizes.
 pub struct Reference {
     /// The robot, whose numbers are the layout's in some regimes.
@@ -75,18 +80,47 @@ pub fn direction(layout: &Layout, index: u64) -> Vec<Given> {
     inputs(&readable(Regime::Moving.sample(layout, 1, index).instant))
 }
 
+impl Reference {
+    /// Narrows what each result may be off to what is seen of rounding, with a margin: what a proof allows is what rounding
+    /// may be at worst, of which a fault in single precision could be a part. Results of the graph are `found` in double
+    /// and in single precision.
+    pub fn narrow(references: &mut [Self], found: &[[Vec<FunctionResult>; 2]]) {
+        let results = references.first().map_or(0, |reference| reference.state.expected.len());
+        for index in 0..results {
+            let worst = references.iter().zip(found).fold(0.0, |worst: f64, (reference, found)| {
+                let expected = &reference.state.expected[index];
+                let errors = found.iter().zip([f64::EPSILON, f64::from(f32::EPSILON)]).map(|(found, rounding)| {
+                    let found = found.iter().find(|found| found.is_of(expected));
+                    found.map_or(1.0, |found| expected.error(found, rounding))
+                });
+                errors.fold(worst, f64::max)
+            });
+            for reference in &mut *references {
+                let least = MARGIN / reference.roundings[index];
+                let part = (MARGIN * worst).max(least).min(1.0);
+                reference.state.expected[index].sizes.iter_mut().for_each(|size| *size *= part);
+            }
+        }
+    }
+}
+
 impl FunctionResult {
-    /// Largest difference from what was `found` over what is allowed in `f64`; infinite where something is missing or
-    /// not a number.
-    pub fn error(&self, found: &Self) -> f64 {
-        scaled_error(&found.values, &self.values, &self.sizes) / f64::EPSILON
+    /// Whether it is of the same function and output.
+    fn is_of(&self, other: &Self) -> bool {
+        self.function == other.function && self.output == other.output
+    }
+
+    /// Largest difference from what was `found` over what is allowed with a unit of rounding; infinite where something is
+    /// missing or not a number.
+    pub fn error(&self, found: &Self, rounding: f64) -> f64 {
+        scaled_error(&found.values, &self.values, &self.sizes) / rounding
     }
 }
 
 impl ReferenceState {
     /// The result of the same function and output; `None` for one that the table of quantities does not have.
     pub fn expected(&self, found: &FunctionResult) -> Option<&FunctionResult> {
-        self.expected.iter().find(|expected| expected.function == found.function && expected.output == found.output)
+        self.expected.iter().find(|expected| expected.is_of(found))
     }
 
     /// As stored in a graph: the results in the order of `found`, with the pivots from there, which the generic

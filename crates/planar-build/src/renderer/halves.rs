@@ -16,7 +16,12 @@ type Half<'a> = Vec<(&'a str, &'a Statement)>;
 
 /// The lines of a function, those of its result at the end. None where it has no halves: where it has no matrix, or one that
 /// depends on velocities, or what depends on them needs all of the configuration.
-pub fn in_halves(family: &Family, function: &Function, scope: &Scope<'_>, result: Vec<String>) -> Option<Vec<String>> {
+pub fn in_halves(
+    family: &Family,
+    function: &Function,
+    scope: &Scope<'_>,
+    result: impl FnOnce() -> Vec<String>,
+) -> Option<Vec<String>> {
     let [first, second] = halves(family, function)?.map(|half| stage(&half));
     let results = loops::names(&function.outputs);
     let (sections, statements) = needed(&[(&second.0, &second.1)], &results);
@@ -26,7 +31,7 @@ pub fn in_halves(family: &Family, function: &Function, scope: &Scope<'_>, result
     let (first_sections, first_statements) = needed(&[(&first.0, &first.1)], &crossing);
     let mut lines = scope.lines(&first_sections, &first_statements, &crossing);
     let mut rest = scope.lines(&sections, &statements, &results);
-    rest.extend(result);
+    rest.extend(result());
     let bound = bindings(&[&lines[..], &rest].concat(), "self", Syntax::Rust);
     let of_velocities: HashSet<&str> = function.statements.iter().flat_map(|s| s.targets.names()).collect();
     let few: Vec<&str> = crossing.into_iter().filter(|name| of_velocities.contains(name)).collect();

@@ -152,7 +152,7 @@ fn context(graph: &Graph, module: &Module<'_>) -> Value {
     let joints: usize = links.iter().sum();
     let constants: Vec<&str> = graph.constants.values.iter().map(|constant| constant.name.as_str()).collect();
     let mut set_up = Scope::parameters(graph, Syntax::Rust).lines(&[], &graph.constants.statements, &constants);
-    set_up.extend(pivot::regularity(graph));
+    set_up.push(pivot::regularity(graph));
     let symmetry =
         if module.arithmetic.is_paired && !module.standalone { Symmetry::of(graph) } else { Symmetry::default() };
     let order = symmetry.side_by_side(&constants);
@@ -277,7 +277,7 @@ fn render_function(
 /// The body of a function that does not go by way of a configuration, where it has halves.
 fn in_one_piece(graph: &Graph, family: &Family, function: &Function, is_fused: bool) -> Option<String> {
     let scope = Scope::constants(graph, Syntax::Rust, is_fused);
-    in_halves(family, function, &scope, result(graph, family, function, &scope)).map(|lines| body(&lines))
+    in_halves(family, function, &scope, || result(graph, family, function, &scope)).map(|lines| body(&lines))
 }
 
 /// The expression of a function's result, after the lines that its pivot needs.

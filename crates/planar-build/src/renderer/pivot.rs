@@ -6,29 +6,18 @@
 
 use super::input;
 use super::syntax::{Place, Syntax};
-use crate::format::{Family, Function, Graph, Operand, PIVOT, Parameter, Variable};
+use crate::format::{Family, Function, Graph, Operand, PIVOT, Variable};
 use serde_json::{Value, json};
 use std::collections::HashMap;
 use std::slice;
 
-/// The constant that is added to every pivot: 0, or NaN.
+/// The constant that is added to every pivot, 0 or NaN, and the function of the core that it is computed by.
 const REGULARITY: &str = "regularity";
 
-/// Quotients in a line.
-const LINE: usize = 3;
-
-/// The lines that compute the constant from the parameters: x / x is 1, or NaN where x is 0 or infinite.
-pub fn regularity(graph: &Graph) -> Vec<String> {
-    let syntax = Syntax::Rust;
-    let of_parameter = |mass: &Parameter| syntax.field(Place::Parameters, &mass.name);
-    let quotients: Vec<String> = graph.masses().map(|mass| format!("{m} / {m}", m = of_parameter(mass))).collect();
-    let mut sum = format!("T::constant(-{}.0)", quotients.len());
-    let mut lines = vec!["// masses and moments of inertia".to_owned()];
-    for some in quotients.chunks(LINE) {
-        lines.push(syntax.assignment(REGULARITY, &format!("{sum} + {}", some.join(" + "))));
-        sum = REGULARITY.to_owned();
-    }
-    lines
+/// The line that computes the constant from the parameters.
+pub fn regularity(graph: &Graph) -> String {
+    let masses: Vec<String> = graph.masses().map(|mass| Syntax::Rust.field(Place::Parameters, &mass.name)).collect();
+    Syntax::Rust.assignment(REGULARITY, &format!("{REGULARITY}([{}])", masses.join(", ")))
 }
 
 /// The constant as a field of the model.
@@ -68,7 +57,7 @@ impl Pivot {
             let shown = format!("unless_finite({system}, &[{}])", shown.join(", "));
             let either = format!("if SHOWS_INPUTS {{ {shown} }} else {{ {system} }}");
             lines.push(Syntax::Rust.assignment(PIVOT, &either));
-            system = PIVOT.to_owned();
+            PIVOT.clone_into(&mut system);
         }
         Some(Self { lines, value: format!("{system} + {}", Syntax::Rust.field(Place::Constants, REGULARITY)) })
     }

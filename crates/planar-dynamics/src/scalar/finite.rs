@@ -30,3 +30,11 @@ pub fn all_finite<T: Real, const N: usize>(slices: [&[T]; N]) -> bool {
 pub fn unless_finite<T: Scalar>(sum: T, values: &[T]) -> T {
     values.iter().fold(sum, |sum, value| sum + *value * T::ZERO)
 }
+
+/// 0, or none where one of the masses and moments of inertia is 0 or not finite: x / x is else 1.
+#[inline]
+#[must_use]
+#[allow(clippy::eq_op, reason = "it is not 1 of each number")]
+pub fn regularity<T: Scalar, const N: usize>(masses: [T; N]) -> T {
+    masses.iter().fold(T::ZERO, |sum, mass| sum + *mass / *mass) * T::ZERO
+}

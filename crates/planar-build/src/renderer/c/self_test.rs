@@ -1,5 +1,6 @@
 //! Inputs and results of the own test of a module in C.
 
+use super::super::input;
 use crate::format::{Graph, PIVOT, ReferenceState, Variable};
 use serde_json::{Value, json};
 
@@ -42,6 +43,9 @@ pub fn self_test(graph: &Graph, states: &[ReferenceState]) -> Value {
         json!({
             "name": function.name,
             "inputs": function.inputs,
+            "infinite": function.inputs.iter().map(|name| infinite(input(graph, name))).collect::<Vec<_>>(),
+            // relative to itself, the one element of a matrix is always 1
+            "can_be_singular": function.pivot().is_some_and(|pivot| pivot.name().is_some()),
             "places": places,
             "length": length,
             "states": states.collect::<Vec<_>>(),
@@ -69,7 +73,16 @@ pub fn self_test(graph: &Graph, states: &[ReferenceState]) -> Value {
         "impact": impact(),
         "states": states.len(),
         "longest": longest,
+        "longest_input": graph.inputs.iter().map(|input| input.shape.iter().product::<usize>()).max(),
     })
+}
+
+/// An input, of which each element is infinite in one call; of place and velocity of the base the angular part alone, on
+/// which all functions with this input depend.
+fn infinite(input: &Variable) -> Value {
+    let is_absolute = ["base_pose", "base_twist"].contains(&input.name.as_str());
+    let length: usize = input.shape.iter().product();
+    json!({"name": input.name, "length": length, "elements": if is_absolute { 1 } else { length }})
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ fn what_velocities_contribute_crosses_as_few_numbers() {
     let graph = graph("dual_arm_3r");
     let of = |name: &str| {
         let (family, function) = graph.functions_of_families().find(|(_, f)| f.name == name).expect("a function");
-        in_halves(family, function, &Scope::constants(&graph, Syntax::Rust, false), Vec::new())
+        in_halves(family, function, &Scope::constants(&graph, Syntax::Rust, false), Vec::new)
     };
     let lines = of("reduced_dynamics").expect("halves");
     let crossing: Vec<&String> = lines.iter().filter(|line| line.contains("read_again([")).collect();
