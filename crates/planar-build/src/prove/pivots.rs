@@ -25,7 +25,11 @@ pub fn check(graph: &Graph, structure: &Structure, arguments: Arguments<'_>) -> 
         }
     }
     // relative to itself the one element of a matrix is 1, whatever it is: then results alone show it
-    let is_shown = |function: &Function| function.pivot().is_some_and(|pivot| pivot.name().is_some());
+    let has_one_joint = structure.links.iter().sum::<usize>() == 1;
+    let is_shown = |function: &Function| {
+        let is_number = function.pivot().is_some_and(|pivot| pivot.name().is_none());
+        !(has_one_joint && is_number)
+    };
     for (place, (kind, arm, link)) in structure.parameters.iter().enumerate() {
         let mut parameters = arguments.parameters.to_vec();
         parameters[place] = f64::NAN;
