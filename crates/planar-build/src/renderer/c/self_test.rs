@@ -1,6 +1,7 @@
 //! Inputs and results of the own test of a module in C.
 
 use super::super::input;
+use super::super::pivot::needed_elements;
 use crate::format::{Graph, PIVOT, ReferenceState, Variable};
 use serde_json::{Value, json};
 
@@ -18,8 +19,10 @@ pub fn self_test(graph: &Graph, states: &[ReferenceState]) -> Value {
             "values": values.collect::<Vec<_>>(),
         })
     });
-    let functions = graph.functions();
-    let functions = functions.map(|function| {
+    let functions = graph.functions_of_families().map(|(family, function)| {
+        let needed = needed_elements(graph, family, function);
+        let infinite =
+            function.inputs.iter().zip(&needed).map(|(name, elements)| infinite(input(graph, name), elements));
         let stored: Vec<&Variable> = function.outputs.iter().filter(|o| o.name != PIVOT).collect();
         let mut places = Vec::new();
         let mut length = 0;
@@ -43,7 +46,7 @@ pub fn self_test(graph: &Graph, states: &[ReferenceState]) -> Value {
         json!({
             "name": function.name,
             "inputs": function.inputs,
-            "infinite": function.inputs.iter().map(|name| infinite(input(graph, name))).collect::<Vec<_>>(),
+            "infinite": infinite.collect::<Vec<_>>(),
             // relative to itself, the one element of a matrix is always 1
             "can_be_singular": function.pivot().is_some_and(|pivot| pivot.name().is_some()),
             "places": places,
@@ -77,12 +80,9 @@ pub fn self_test(graph: &Graph, states: &[ReferenceState]) -> Value {
     })
 }
 
-/// An input, of which each element is infinite in one call; of place and velocity of the base the angular part alone, on
-/// which all functions with this input depend.
-fn infinite(input: &Variable) -> Value {
-    let is_absolute = ["base_pose", "base_twist"].contains(&input.name.as_str());
-    let length: usize = input.shape.iter().product();
-    json!({"name": input.name, "length": length, "elements": if is_absolute { 1 } else { length }})
+/// An input, of which each element that results depend on is infinite in one call.
+fn infinite(input: &Variable, elements: &[usize]) -> Value {
+    json!({"name": input.name, "length": input.shape.iter().product::<usize>(), "elements": elements})
 }
 
 #[cfg(test)]
