@@ -153,8 +153,9 @@ macro_rules! implement_dynamics {
                     let [angles, rates] = finite_joint_arrays(state)?;
                     let (masses, inertias, contacts, twists) = by_arm(finite_targets(targets)?);
                     let pose = &state.base_pose;
-                    let result =
-                        Model::reduced_impact_with_pivot::<false>(self, pose, angles, rates, &masses, &inertias, &contacts, &twists);
+                    let result = Model::reduced_impact_with_pivot::<false>(
+                        self, pose, angles, rates, &masses, &inertias, &contacts, &twists,
+                    );
                     pivot("the impact matrix G", result.smallest_pivot)?;
                     store("impact_matrix", result.impact_matrix.as_flattened(), impact_matrix)?;
                     store("impact_momentum", &result.impact_momentum, impact_momentum)?;
@@ -177,7 +178,8 @@ macro_rules! implement_dynamics {
                     // the targets' numbers are read after the sines, which would have to keep them
                     let configuration = Model::impact_configuration(self, pose, angles);
                     let (masses, inertias, contacts, twists) = by_arm(of_arms);
-                    let result = configuration.full_impact_with_pivot::<false>(twist, rates, &masses, &inertias, &contacts, &twists);
+                    let result = configuration
+                        .full_impact_with_pivot::<false>(twist, rates, &masses, &inertias, &contacts, &twists);
                     // copies: a result whose parts are borrowed would be kept in memory as a whole, with its matrix
                     let (base, after) = (result.base_twist_after, result.joint_rates_after);
                     *joints = after;

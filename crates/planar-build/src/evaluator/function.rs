@@ -146,11 +146,17 @@ impl Function {
             }
             wanted = in_loops(&mut values, function, &wanted);
         }
-        if let Some(pivot) = function.outputs.iter().position(|output| output.name == PIVOT) {
-            let before = function.outputs[..pivot].iter().map(|output| output.elements.len()).sum::<usize>();
+        let mut ranges = Vec::with_capacity(function.outputs.len());
+        let mut end = 0;
+        for output in &function.outputs {
+            ranges.push(end..end + output.elements.len());
+            end += output.elements.len();
+        }
+        let pivot = function.outputs.iter().position(|output| output.name == PIVOT);
+        if let Some(pivot) = pivot {
             // after the graph's
             let regularity = values.constant(Source::Model(graph.parameters.len() + graph.constants.values.len()));
-            if let Some(element) = wanted.get_mut(before) {
+            if let Some(element) = wanted.get_mut(ranges[pivot].start) {
                 *element = values.result(Operation::Add, *element, Some(regularity));
             }
         }
@@ -158,17 +164,11 @@ impl Function {
         for (element, _) in wanted.iter_mut().zip(angles).filter(|(_, is_angle)| *is_angle) {
             *element = values.saturated(*element);
         }
-        let mut ranges = Vec::with_capacity(function.outputs.len());
-        let mut end = 0;
-        for output in &function.outputs {
-            ranges.push(end..end + output.elements.len());
-            end += output.elements.len();
-        }
         Ok(Self {
             index,
             program: Program::new(&values, elements, &wanted)?,
             elements: ranges,
-            pivot: function.outputs.iter().position(|output| output.name == PIVOT),
+            pivot,
             name: function.name.clone(),
             inputs,
             outputs: function.outputs.iter().map(Argument::new).collect(),

@@ -84,23 +84,6 @@ impl Set {
         }
         has_new
     }
-
-    fn has(&self, index: usize) -> bool {
-        self.0.get(index / 64).is_some_and(|word| word & (1 << (index % 64)) != 0)
-    }
-}
-
-/// Of each input of a function the elements that a result depends on.
-pub fn needed_elements(graph: &Graph, family: &Family, function: &Function) -> Vec<Vec<usize>> {
-    let inputs = Inputs::of(graph, family, function);
-    let needed = inputs.of_elements(function.outputs.iter().flat_map(|output| &output.elements));
-    let mut before = graph.parameters.len();
-    let elements = |name: &String| {
-        let first = before;
-        before += input(graph, name).shape.iter().product::<usize>();
-        (first..before).filter(|index| needed.has(*index)).map(|index| index - first).collect()
-    };
-    function.inputs.iter().map(elements).collect()
 }
 
 /// The parameters and elements of inputs that each value depends on.

@@ -1,9 +1,11 @@
 //! Inputs and results of the own test of a module in C.
 
 use super::super::input;
-use super::super::pivot::needed_elements;
-use crate::format::{Graph, PIVOT, ReferenceState, Variable};
+use super::super::loops;
+use super::super::needed::needed;
+use crate::format::{Family, Function, Graph, PIVOT, ReferenceState, Statement, Variable};
 use serde_json::{Value, json};
+use std::collections::HashSet;
 
 /// The tables, and where the results of an impact are in theirs.
 pub fn self_test(graph: &Graph, states: &[ReferenceState]) -> Value {
@@ -20,9 +22,6 @@ pub fn self_test(graph: &Graph, states: &[ReferenceState]) -> Value {
         })
     });
     let functions = graph.functions_of_families().map(|(family, function)| {
-        let needed = needed_elements(graph, family, function);
-        let infinite =
-            function.inputs.iter().zip(&needed).map(|(name, elements)| infinite(input(graph, name), elements));
         let stored: Vec<&Variable> = function.outputs.iter().filter(|o| o.name != PIVOT).collect();
         let mut places = Vec::new();
         let mut length = 0;
@@ -46,7 +45,7 @@ pub fn self_test(graph: &Graph, states: &[ReferenceState]) -> Value {
         json!({
             "name": function.name,
             "inputs": function.inputs,
-            "infinite": infinite.collect::<Vec<_>>(),
+            "infinite": infinite(graph, family, function),
             // relative to itself, the one element of a matrix is always 1
             "can_be_singular": function.pivot().is_some_and(|pivot| pivot.name().is_some()),
             "places": places,
@@ -80,9 +79,19 @@ pub fn self_test(graph: &Graph, states: &[ReferenceState]) -> Value {
     })
 }
 
-/// An input, of which each element that results depend on is infinite in one call.
-fn infinite(input: &Variable, elements: &[usize]) -> Value {
-    json!({"name": input.name, "length": input.shape.iter().product::<usize>(), "elements": elements})
+/// The inputs of a function, of which each element that results depend on is infinite in one call.
+fn infinite(graph: &Graph, family: &Family, function: &Function) -> Value {
+    let (configuration, results) = (&family.configuration, loops::names(&function.outputs));
+    let stages =
+        [(&configuration.sections[..], &configuration.statements[..]), (&function.sections, &function.statements)];
+    let (_, statements) = needed(&stages, &results);
+    let read: HashSet<&str> = statements.iter().flat_map(Statement::reads).chain(results).collect();
+    let inputs = function.inputs.iter().map(|name| {
+        let (input, length) = (input(graph, name), input(graph, name).shape.iter().product::<usize>());
+        let elements = (0..length).filter(|index| read.contains(input.element(*index).as_str()));
+        json!({"name": name, "length": length, "elements": elements.collect::<Vec<_>>()})
+    });
+    inputs.collect()
 }
 
 #[cfg(test)]
