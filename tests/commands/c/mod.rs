@@ -8,6 +8,7 @@ use planar_capture::build::graph;
 use planar_capture::build::{Arithmetic, CModule, CText, Module};
 use planar_capture::generate::complete;
 use planar_capture::layout::Layout;
+use planar_capture::structure::parameters;
 use planar_proof::{file, said};
 use serde_json::{Value, json};
 use std::fs;
@@ -42,9 +43,20 @@ struct Modules {
 
 impl Modules {
     fn new(name: &str) -> Self {
-        let layout = Layout::read(&file(&format!("codegen/layouts/{name}.toml"))).expect("a layout");
+        Self::of(name, &Layout::read(&file(&format!("codegen/layouts/{name}.toml"))).expect("a layout"))
+    }
+
+    /// Those of a layout that has other numbers than the shipped one of a name, as if the graph was derived for it.
+    fn of(name: &str, layout: &Layout) -> Self {
         let text = fs::read_to_string(file(&format!("codegen/graphs/{name}.json"))).expect("a graph");
-        let proved = complete(&text, &layout).unwrap_or_else(|e| panic!("{e}"));
+        let mut graph: Value = serde_json::from_str(&text).expect("JSON");
+        let structure = graph::structure(&serde_json::from_str(&text).expect("a graph")).expect("a structure");
+        let values = parameters(&structure, layout).expect("of this structure");
+        graph["layout"]["sha256"] = json!(layout.sha256());
+        for (parameter, value) in graph["parameters"].as_array_mut().expect("a list").iter_mut().zip(values) {
+            parameter["default"] = json!(value);
+        }
+        let proved = complete(&graph.to_string(), layout).unwrap_or_else(|e| panic!("{e}"));
         let header = format!("{name}.h");
         let in_c = CModule { header: &header, source: "a", command: "b" };
         let CText { source, header } = in_c.render(&proved.graph).unwrap_or_else(|e| panic!("{e}"));
@@ -150,6 +162,34 @@ fn a_module_passes_its_own_test_in_both_precisions() {
         let modules = Modules::new(layout);
         for precision in ["-UNOTHING", &modules.single()] {
             assert!(modules.holds(&modules.source(), precision), "{layout}, {precision}");
+        }
+    }
+}
+
+/// From robots that are seen under a microscope to those of hundreds of metres: states of the proof and of the own test have
+/// their size, and steps are as short as their motion wants it.
+#[test]
+fn a_module_of_a_robot_of_any_size_passes_its_own_test() {
+    if without("cc") {
+        return;
+    }
+    for name in ["dual_arm_3r", "asymmetric_wheel"] {
+        let shipped = Layout::read(&file(&format!("codegen/layouts/{name}.toml"))).expect("a layout");
+        for (mass, length, radius) in [(1e-15, 1e-6, 1.0), (1e-8, 1e-3, 0.1), (1e-3, 3.5e-3, 0.03), (1e6, 100.0, 1.0)] {
+            let mut layout = shipped.clone();
+            (layout.base.mass, layout.base.inertia) =
+                (mass * layout.base.mass, mass * length * length * layout.base.inertia);
+            for arm in &mut layout.arms {
+                arm.mount = arm.mount.map(|x| length * x);
+                for link in &mut arm.links {
+                    (link.length, link.com) = (length * link.length, link.com.map(|x| length * x));
+                    (link.mass, link.inertia) = (mass * link.mass, mass * (length * radius).powi(2) * link.inertia);
+                }
+            }
+            let modules = Modules::of(name, &layout);
+            for precision in ["-UNOTHING", &modules.single()] {
+                assert!(modules.holds(&modules.source(), precision), "{name}, {mass}, {length}, {precision}");
+            }
         }
     }
 }

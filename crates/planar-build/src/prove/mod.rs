@@ -61,7 +61,10 @@ pub enum GenerateError {
     #[error("the graph cannot be used: {0}")]
     Graph(#[from] GraphError),
     /// The generic implementation has no answer: a robot without inertia somewhere.
-    #[error("the generic implementation has no answer for a state of this robot ({regime}, {index}): {source}")]
+    #[error(
+        "the generic implementation has no answer for a state of this robot ({regime}, {index}): {source}; masses, moments \
+         of inertia (kg, kg m²) and lengths (m) of its bodies are too far apart for 16 digits"
+    )]
     NoReference {
         /// Where the state was drawn from.
         regime: &'static str,

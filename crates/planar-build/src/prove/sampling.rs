@@ -27,7 +27,8 @@ use std::f64::consts::PI;
 
 macro_rules! regimes {
     ($($(#[$doc:meta])* $regime:ident $name:literal,)*) => {
-        /// A region of states, or of layouts, in which a particular error can occur.
+        /// A region of states, or of layouts, in which a particular error can occur. Units of mass and length are 1 kg and 1 m
+        /// for links of 10 g to 100 kg in arms of 1 cm to 100 m, else by factors of a hundred those of the robot's size.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Regime {
             $($(#[$doc])* $regime,)*
@@ -53,7 +54,7 @@ regimes! {
     Moving "moving",
     /// Nothing moves: accelerations come from forces alone.
     AtRest "at rest",
-    /// 100 rad/s, 100 m/s: the bias dominates.
+    /// 100 rad/s, and 100 units of length a second: the bias dominates.
     Fast "fast",
     /// All joints but the first at 0.
     Stretched "stretched",
@@ -61,7 +62,7 @@ regimes! {
     Folded "folded",
     /// Joints at multiples of π, less than 0.001 and more than 10⁻¹² off.
     NearSingular "near singular",
-    /// The base 10⁶ m away, turned several times.
+    /// The base 10⁶ units of length away, turned several times.
     Far "far away",
     /// Links a thousandth to a millionth of their mass and inertia.
     LightLinks "light links",
@@ -73,9 +74,9 @@ regimes! {
     /// the last links' centres of mass anywhere. No links or distances of mounts that are far shorter than the arms:
     /// generated forward dynamics lose digits with the square of that ratio.
     OtherShape "other shape",
-    /// Targets of 10⁻⁶ to 10⁻³ kg.
+    /// Targets of 10⁻⁶ to 10⁻³ units of mass.
     LightTargets "light targets",
-    /// Targets of 10³ to 10⁶ kg.
+    /// Targets of 10³ to 10⁶ units of mass.
     HeavyTargets "heavy targets",
 }
 
@@ -93,12 +94,13 @@ impl Regime {
     #[must_use]
     pub fn sample(self, layout: &Layout, seed: u64, index: u64) -> RegimeSample {
         let mut random = Random::new(seed, self, index);
-        let layout = self.layout(layout, &mut random);
-        let instant = self.instant(&layout, &mut random);
+        let units = Units::of(layout);
+        let layout = self.layout(layout, &units, &mut random);
+        let instant = self.instant(&layout, &units, &mut random);
         RegimeSample { layout, instant }
     }
 
-    fn layout(self, layout: &Layout, random: &mut Random) -> Layout {
+    fn layout(self, layout: &Layout, units: &Units, random: &mut Random) -> Layout {
         let mut layout = layout.clone();
         let common = match self {
             Self::LightLinks => random.decades(-6.0, -3.0),
@@ -115,14 +117,14 @@ impl Regime {
             scale(&mut link.mass, &mut link.inertia, common);
         }
         if self == Self::OtherShape {
-            reshape(&mut layout, random);
+            reshape(&mut layout, units, random);
         }
         layout
     }
 
-    fn instant(self, layout: &Layout, random: &mut Random) -> EvaluationInput {
+    fn instant(self, layout: &Layout, units: &Units, random: &mut Random) -> EvaluationInput {
         let joints = layout.joints();
-        let distance = if self == Self::Far { 1e6 } else { 2.0 };
+        let distance = units.length * if self == Self::Far { 1e6 } else { 2.0 };
         let turns = if self == Self::Far { 10.0 } else { 1.0 };
         let speed = match self {
             Self::AtRest => 0.0,
@@ -137,17 +139,19 @@ impl Regime {
                 .flat_map(|arm| 0..arm.links.len())
                 .map(|link| self.joint_angle(link, random))
                 .collect(),
-            base_twist: random.vector(speed),
+            base_twist: units.twist(random.vector(speed)),
             joint_rates: (0..joints).map(|_| random.within(speed)).collect(),
         };
         let arms = layout.arms.len();
         EvaluationInput {
             state,
-            joint_torques: (0..joints).map(|_| random.within(10.0)).collect(),
-            base_wrench: random.coin().then(|| random.vector(10.0)),
-            end_effector_wrenches: random.coin().then(|| (0..arms).map(|_| random.vector(10.0)).collect()),
+            joint_torques: (0..joints).map(|_| units.torque() * random.within(10.0)).collect(),
+            base_wrench: random.coin().then(|| units.wrench(random.vector(10.0))),
+            end_effector_wrenches: random
+                .coin()
+                .then(|| (0..arms).map(|_| units.wrench(random.vector(10.0))).collect()),
             // most arms have one
-            targets: (0..arms).map(|_| (random.coin() || random.coin()).then(|| self.target(random))).collect(),
+            targets: (0..arms).map(|_| (random.coin() || random.coin()).then(|| self.target(units, random))).collect(),
         }
     }
 
@@ -165,23 +169,24 @@ impl Regime {
         }
     }
 
-    fn target(self, random: &mut Random) -> Target<f64> {
+    fn target(self, units: &Units, random: &mut Random) -> Target<f64> {
         let mass = match self {
             Self::LightTargets => random.decades(-6.0, -3.0),
             Self::HeavyTargets => random.decades(3.0, 6.0),
             _ => random.decades(0.0, 2.0),
         };
-        Target {
+        let inertia = mass * random.decades(-2.0, 0.0);
+        units.target(&Target {
             mass,
-            inertia: mass * random.decades(-2.0, 0.0),
+            inertia,
             contact: [random.within(0.5), random.within(0.5)],
             twist: random.vector(1.0),
-        }
+        })
     }
 }
 
 /// Other numbers of the same structure: zeros stay, save those of the last links' centres of mass.
-fn reshape(layout: &mut Layout, random: &mut Random) {
+fn reshape(layout: &mut Layout, units: &Units, random: &mut Random) {
     for arm in &mut layout.arms {
         arm.mount = arm.mount.map(|x| x * random.factor()); // the signs stay, so that mounts stay apart
         arm.mount_angle *= random.factor();
@@ -190,9 +195,51 @@ fn reshape(layout: &mut Layout, random: &mut Random) {
             link.com = link.com.map(|x| x * random.factor());
         }
         if let Some(last) = arm.links.last_mut() {
-            last.com = last.com.map(|x| x + random.within(0.3));
+            last.com = last.com.map(|x| x + units.length * random.within(0.3));
         }
     }
+}
+
+/// Units of mass (kg) and length (m) in which a robot's bodies are of a usual size; time is in seconds. See [`Regime`].
+pub(super) struct Units {
+    mass: f64,
+    length: f64,
+}
+
+impl Units {
+    /// Those of its heaviest link, and of its longest arm.
+    pub(super) fn of(layout: &Layout) -> Self {
+        let heaviest = layout.arms.iter().flat_map(|arm| &arm.links).map(|link| link.mass).fold(0.0, f64::max);
+        Self { mass: hundreds(heaviest), length: hundreds(layout.reach_from_base()) }
+    }
+
+    fn torque(&self) -> f64 {
+        self.mass * self.length * self.length
+    }
+
+    fn twist(&self, [omega, vx, vy]: [f64; 3]) -> [f64; 3] {
+        [omega, self.length * vx, self.length * vy]
+    }
+
+    fn wrench(&self, [torque, fx, fy]: [f64; 3]) -> [f64; 3] {
+        let force = self.mass * self.length;
+        [self.torque() * torque, force * fx, force * fy]
+    }
+
+    /// A target in kg and m, of one in these units.
+    pub(super) fn target(&self, target: &Target<f64>) -> Target<f64> {
+        Target {
+            mass: self.mass * target.mass,
+            inertia: self.torque() * target.inertia,
+            contact: target.contact.map(|x| self.length * x),
+            twist: self.twist(target.twist),
+        }
+    }
+}
+
+/// The power of 100 next to a size on the side of 1; 1 for a size of 0.
+fn hundreds(size: f64) -> f64 {
+    if size > 0.0 { libm::pow(100.0, libm::trunc(libm::log10(size) / 2.0)) } else { 1.0 }
 }
 
 /// Numbers of one sample: a stream of its own for every regime and index.

@@ -6,7 +6,7 @@ use crate::prove::evaluation::EvaluationInput;
 use crate::prove::generic_results::{Expected, results};
 use crate::prove::impact_results::impact_results;
 use crate::prove::quantities::scaled_error;
-use crate::prove::sampling::{Regime, RegimeSample};
+use crate::prove::sampling::{Regime, RegimeSample, Units};
 use planar_dynamics::error::Error;
 use planar_dynamics::quantity::Quantity;
 use planar_dynamics::target::Target;
@@ -38,6 +38,7 @@ pub fn reference_state(
     index: u64,
     has_impact_results: bool,
 ) -> Result<Reference, Error> {
+    let units = Units::of(layout);
     let RegimeSample { layout, instant } = regime.sample(layout, 0, index);
     let mut instant = readable(instant);
     instant.base_wrench.get_or_insert([0.0; 3]);
@@ -45,7 +46,7 @@ pub fn reference_state(
     // impacts are computed where there is a target
     if instant.targets.iter().all(Option::is_none) {
         let target = Target { mass: 10.0, inertia: 0.5, contact: [0.25, -0.125], twist: [0.5, -0.25, 0.125] };
-        instant.targets[0] = Some(target);
+        instant.targets[0] = Some(units.target(&target));
     }
     let base_wrench = EvaluationInput { end_effector_wrenches: None, ..instant.clone() };
     let torques_alone = EvaluationInput { base_wrench: None, ..base_wrench.clone() };
