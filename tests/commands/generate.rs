@@ -102,7 +102,7 @@ pub fn outcome(mut command: Command) -> (i32, String, String) {
 
 const MERGING: &str = r"
 mod robot;
-use robot::{ARMS, JOINTS, Model, Status};
+use robot::{ARMS, JOINTS, MANIFEST, Model, ParameterKind, Parameters, Status};
 
 fn main() {
     let (mut robot, before) = (Model::<f64>::default(), Model::<f64>::default());
@@ -115,6 +115,24 @@ fn main() {
     assert!(robot == before);
     assert_eq!(merge(&mut robot, [1.0; ARMS]), Ok(()));
     assert!(robot != before);
+
+    // what is wrong with a robot, at every function that says it
+    let numbers = before.parameters().to_array();
+    for (place, parameter) in MANIFEST.parameters.iter().enumerate() {
+        for (number, status) in [(f64::NAN, Status::NotFinite), (f64::INFINITY, Status::NotFinite), (0.0, Status::Singular)] {
+            if place > 1 && number == 0.0 {
+                continue; // masses and moments of inertia are between lengths
+            }
+            let mut numbers = numbers;
+            numbers[place] = number;
+            let mut robot = Model::new(Parameters::from_array(numbers));
+            assert_eq!(merge(&mut robot, [1.0; ARMS]), Err(status));
+            let step = robot.rk4_step(&[0.0; 3], &[0.1; JOINTS], &[0.0; 3], &[0.1; JOINTS], &[0.0; JOINTS], 0.001);
+            // on the length of a last link no motion depends
+            let is_end = parameter.kind == ParameterKind::LinkLength && parameter.link + 1 == MANIFEST.links[parameter.arm];
+            assert!(step.map(drop) == Err(status) || is_end);
+        }
+    }
 }
 ";
 

@@ -30,7 +30,7 @@ use crate::momentum_equation::MomentumEquation;
 use crate::scalar::Real;
 use crate::state::State;
 use crate::target::Target;
-use crate::validate::length;
+use crate::validate::{finite, length};
 
 /// Buffers for the velocities after an impact and its impulses: one entry per joint, or per arm.
 #[derive(Debug)]
@@ -104,7 +104,9 @@ pub fn paper<T: Real, M: Model<T> + ?Sized>(
     let [px, py] = before.linear_momentum;
     model.mass_matrix(&state.base_pose, state.joint_angles, workspace.mass_matrix)?;
     let equation = MomentumEquation::new(workspace.mass_matrix, joints)?;
-    Ok(equation.base_twist([before.angular_momentum, px, py], &state.base_pose, after.joint_rates))
+    let base_twist = equation.base_twist([before.angular_momentum, px, py], &state.base_pose, after.joint_rates);
+    finite("base_twist", &base_twist)?;
+    Ok(base_twist)
 }
 
 /// Replaces the end effectors' twists by those of the targets, and fills the impulses.
@@ -119,5 +121,6 @@ fn fill_target_results<T: Real>(
         *twist = target.map_or([T::ZERO; 3], |t| t.twist_from_contact(twist));
         *impulse = target.map_or([T::ZERO; 3], |t| t.impulse(twist));
     }
-    Ok(())
+    // of finite velocities they may overflow, and where a twist does, so does its impulse or is none
+    finite("impulses", after.impulses.as_flattened())
 }

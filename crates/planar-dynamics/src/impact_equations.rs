@@ -42,7 +42,7 @@ pub struct ImpactEquations<'a, T, Row> {
 impl<T: Scalar, Row: AsRef<[T]> + AsMut<[T]> + Clone> ImpactEquations<'_, T, Row> {
     /// `G = I + Σ Kᵀ I_t K` and `H = I θ̇ + Σ Kᵀ I_t t_ti` with `K = J_t⁻¹ J`, eq. (16), and the solution of
     /// `G θ̇_f = H`, eq. (15), by `L D Lᵀ` from the last joint to the first. Returns the smallest pivot relative to its
-    /// diagonal entry: small, zero or NaN: singular.
+    /// diagonal entry: small or zero: singular, NaN: singular or not finite.
     ///
     /// `matrix` (joints × joints) is the generalized inertia and becomes G; `momentum` becomes H, `joint_rates_after` the
     /// solution. `factors` is working space of the matrix's size. Rows that are arrays are faster than others. Slices of

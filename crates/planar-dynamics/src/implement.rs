@@ -82,7 +82,8 @@ macro_rules! implement_dynamics {
                     if !are_regular_and_finite(pivot, linear.chain(upper), [bias]) {
                         let found = objection::to_joints(angles, rates)
                             .or(|| objection::to_base_inertia(pivot))
-                            .or(|| objection::to_reduced_dynamics(inertia, bias, jacobian));
+                            .or(|| objection::to_reduced_dynamics(inertia, bias, jacobian))
+                            .unless_of_parameters(|| to_parameters(self));
                         *inertia = [[T::ZERO; JOINTS]; JOINTS];
                         *bias = [T::ZERO; JOINTS];
                         *jacobian = [[T::ZERO; JOINTS]; 3 * ARMS];
@@ -156,7 +157,8 @@ macro_rules! implement_dynamics {
                     let result = Model::reduced_impact_with_pivot::<false>(
                         self, pose, angles, rates, &masses, &inertias, &contacts, &twists,
                     );
-                    pivot("the impact matrix G", result.smallest_pivot)?;
+                    pivot("the impact matrix G", result.smallest_pivot)
+                        .or_else(|singular| finite("parameters", &self.parameters().to_array()).and(Err(singular)))?;
                     store("impact_matrix", result.impact_matrix.as_flattened(), impact_matrix)?;
                     store("impact_momentum", &result.impact_momentum, impact_momentum)?;
                     store("joint_rates_after", &result.joint_rates_after, joint_rates_after)
@@ -189,7 +191,8 @@ macro_rules! implement_dynamics {
                         let found = objection::to_joints(angles, rates)
                             .or(|| objection::to_targets(of_arms))
                             .or(|| objection::to_impact_matrix(result.smallest_pivot))
-                            .or(|| objection::to_velocities_after(joints, omega, vx, vy));
+                            .or(|| objection::to_velocities_after(joints, omega, vx, vy))
+                            .unless_of_parameters(|| to_parameters(self));
                         *joints = [T::ZERO; JOINTS];
                         return Err(found.error());
                     }
@@ -233,7 +236,9 @@ macro_rules! implement_dynamics {
                     if !all_finite([&values[..]]) {
                         finite("merged parameters", &{ values })?;
                     }
-                    *self = Model::new(Parameters::from_array(values));
+                    let parameters = Parameters::from_array(values);
+                    pivot("the merged robot", T::ONE + parameters.regularity())?;
+                    *self = Model::new(parameters);
                     Ok(())
                 }
             }
@@ -267,6 +272,12 @@ macro_rules! implement_dynamics {
             }
 
             type ByArm<T> = ([T; ARMS], [T; ARMS], [[T; 2]; ARMS], [[T; 3]; ARMS]);
+
+            #[cold]
+            #[inline(never)]
+            fn to_parameters<T: Real>(model: &Model<T>) -> objection::Objection<T> {
+                objection::to_parameters(&model.parameters().to_array())
+            }
 
             /// Targets with finite numbers, one per arm.
             fn finite_targets<T: Real>(targets: &[Option<Target<T>>]) -> Result<&[Option<Target<T>>; ARMS], Error> {
@@ -312,7 +323,7 @@ macro_rules! implement_dynamics {
                 let wrenches: &[&[T]] = &[$($slice),*];
                 let pivot = result.smallest_pivot;
                 let found = objection::to_accelerations(angles, rates, torques, joints, wrenches, pivot, alpha, ax, ay);
-                return Err(found.error());
+                return Err(found.unless_of_parameters(|| to_parameters(model)).error());
             }
             *joints = of_joints;
             Ok(base)

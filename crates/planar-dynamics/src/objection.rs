@@ -24,6 +24,7 @@ macro_rules! names {
 
 names! {
     Result "the result"
+    Parameters "parameters"
     BasePose "base_pose"
     JointAngles "joint_angles"
     BaseTwist "base_twist"
@@ -69,6 +70,13 @@ impl<T: Real> Objection<T> {
     #[inline]
     pub fn or(self, other: impl FnOnce() -> Self) -> Self {
         if self.0 == Self::NONE.0 { other() } else { self }
+    }
+
+    /// This, unless its number is none, as a pivot is of parameters that are none, too.
+    #[must_use]
+    #[inline]
+    pub fn unless_of_parameters(self, parameters: impl FnOnce() -> Self) -> Self {
+        if self.1.is_finite() { self } else { parameters().or(|| self) }
     }
 
     /// As an error.
@@ -150,6 +158,13 @@ pub fn to_accelerations_of<T: Real>(
         .or(|| singular(Name::ArticulatedMass, smallest_pivot))
         .or(|| not_finite(Name::BaseAcceleration, base_acceleration))
         .or(|| not_finite(Name::JointAccelerations, joint_accelerations))
+}
+
+/// To the parameters of a model.
+#[cold]
+#[inline(never)]
+pub extern "C" fn to_parameters<T: Real>(parameters: &[T]) -> Objection<T> {
+    not_finite(Name::Parameters, parameters)
 }
 
 /// To angles and rates.

@@ -5,7 +5,7 @@ use planar_dynamics::dynamics::{Kinematics, Merge, Robot};
 use planar_dynamics::error::Error;
 use planar_dynamics::manifest::ParameterKind::{LinkComX, LinkComY, LinkInertia, LinkLength, LinkMass};
 use planar_dynamics::target::{self, Target};
-use planar_dynamics::validate::finite;
+use planar_dynamics::validate::{finite, pivot};
 
 impl Merge<f64> for GraphModel {
     fn merge(
@@ -30,7 +30,10 @@ impl Merge<f64> for GraphModel {
             [values[x], values[y]] = after.com;
         }
         finite("merged parameters", &values)?;
-        self.set_parameters(values);
+        match self.with_parameters(values) {
+            Some(merged) => *self = merged,
+            None => pivot("the merged robot", f64::NAN)?,
+        }
         Ok(())
     }
 }

@@ -122,9 +122,10 @@ impl Evaluator {
 
 impl GraphModel {
     fn new(evaluator: Arc<Evaluator>, parameters: Vec<f64>) -> Self {
-        let mut model = Self { evaluator, parameters, constants: Vec::new() };
-        model.set_constants();
-        model
+        let Evaluator { constants: program, all: functions, .. } = &*evaluator;
+        let model = constants::of_model(program, &parameters);
+        let constants = functions.iter().map(|function| constants::first(&function.program, &model)).collect();
+        Self { evaluator, parameters, constants }
     }
 
     pub(super) fn evaluator(&self) -> &Evaluator {
@@ -135,16 +136,10 @@ impl GraphModel {
         &self.parameters
     }
 
-    /// The same robot with other numbers.
-    pub(super) fn set_parameters(&mut self, parameters: Vec<f64>) {
-        self.parameters = parameters;
-        self.set_constants();
-    }
-
-    fn set_constants(&mut self) {
-        let Evaluator { constants: program, all: functions, .. } = &*self.evaluator;
-        let model = constants::of_model(program, &self.parameters);
-        self.constants = functions.iter().map(|function| constants::first(&function.program, &model)).collect();
+    /// The same robot with other numbers; `None` where a constant of these is not finite.
+    pub(super) fn with_parameters(&self, parameters: Vec<f64>) -> Option<Self> {
+        let model = Self::new(Arc::clone(&self.evaluator), parameters);
+        model.constants.iter().flatten().all(|constant| constant.is_finite()).then_some(model)
     }
 
     /// Calls a function; `read` takes what it wants of the results.

@@ -152,7 +152,7 @@ fn context(graph: &Graph, module: &Module<'_>) -> Value {
     let joints: usize = links.iter().sum();
     let constants: Vec<&str> = graph.constants.values.iter().map(|constant| constant.name.as_str()).collect();
     let mut set_up = Scope::parameters(graph, Syntax::Rust).lines(&[], &graph.constants.statements, &constants);
-    set_up.push(pivot::regularity(graph));
+    set_up.push(pivot::regularity());
     let symmetry =
         if module.arithmetic.is_paired && !module.standalone { Symmetry::of(graph) } else { Symmetry::default() };
     let order = symmetry.side_by_side(&constants);
@@ -178,6 +178,7 @@ fn context(graph: &Graph, module: &Module<'_>) -> Value {
         "operations": doc_text::operations(graph),
         "parameter_names": graph.parameters.iter().map(|parameter| &parameter.name).collect::<Vec<_>>(),
         "parameters": graph.parameters.iter().map(parameter).collect::<Vec<_>>(),
+        "masses": graph.masses().map(|mass| &mass.name).collect::<Vec<_>>(),
         "constants": {"statements": body(&set_up), "values": fields, "names": names},
         "steps": steps(),
         "merged": merged_links(graph),

@@ -11,13 +11,12 @@ use serde_json::{Value, json};
 use std::collections::HashMap;
 use std::slice;
 
-/// The constant that is added to every pivot, 0 or NaN, and the function of the core that it is computed by.
+/// The constant that is added to every pivot, 0 or NaN, and the method of the parameters that it is computed by.
 const REGULARITY: &str = "regularity";
 
 /// The line that computes the constant from the parameters.
-pub fn regularity(graph: &Graph) -> String {
-    let masses: Vec<String> = graph.masses().map(|mass| Syntax::Rust.field(Place::Parameters, &mass.name)).collect();
-    Syntax::Rust.assignment(REGULARITY, &format!("{REGULARITY}([{}])", masses.join(", ")))
+pub fn regularity() -> String {
+    Syntax::Rust.assignment(REGULARITY, &format!("parameters.{REGULARITY}()"))
 }
 
 /// The constant as a field of the model.

@@ -38,7 +38,7 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
     ///
     /// # Errors
     /// [`Error::Length`] for an `x` of another length than the integrator's vectors, and those of `derivative`; `x` is
-    /// then unchanged.
+    /// then unchanged. A number that overflows in the last sum is one of `x`, and an error of the next step's.
     #[inline]
     pub fn step(
         &mut self,

@@ -1,10 +1,12 @@
 //! A number that is not one or is infinite shows in the pivot of every generated function that depends on it, and so does a
 //! mass or moment of inertia of 0.
 
-use planar_capture::dynamics::ForwardDynamics;
+use crate::evaluator;
+use planar_capture::dynamics::{AnyModel, ForwardDynamics};
 use planar_capture::error::Error;
 use planar_capture::scalar::{Dual, Real, Scalar};
 use planar_capture::state::{Forces, RobotState};
+use planar_capture::target::Target;
 use planar_proof::for_every_layout;
 use std::array::from_fn;
 
@@ -165,6 +167,44 @@ macro_rules! pivots {
                         for Call { function, pivot, .. } in calls(values, &inputs()) {
                             let matters = !is_end || !["forward_dynamics", "forward_dynamics_with_base_wrench"].contains(&function);
                             assert_eq!(pivot.is_nan(), matters, "{function}: {} = {number}: {pivot}", parameter.name);
+                        }
+                    }
+                }
+            }
+
+            /// Traits tell it from a singular robot, though the pivot is none for both.
+            #[test]
+            fn a_parameter_that_is_not_finite_has_its_error() {
+                let torques = [0.3; JOINTS];
+                let wrenches = [[0.1, 0.2, 0.3]; ARMS];
+                let forces = Forces { end_effector_wrenches: Some(&wrenches), ..Forces::torques(&torques) };
+                let targets = [Some(Target { mass: 10.0, inertia: 1.0, contact: [0.1, -0.2], twist: [0.1; 3] }); ARMS];
+                let state = RobotState { joint_angles: [0.4; JOINTS], joint_rates: [0.1; JOINTS], base_pose: [0.3; 3], base_twist: [0.2; 3] };
+                let state = state.view();
+                let graph = evaluator("graphs", stringify!($name));
+                for (place, parameter) in MANIFEST.parameters.iter().enumerate() {
+                    for number in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                        let mut values = parameters();
+                        values[place] = number;
+                        // where an end effector is may be in a result and in no pivot
+                        let is_end = parameter.kind == ParameterKind::LinkLength
+                            && parameter.link + 1 == MANIFEST.links[parameter.arm];
+                        let evaluated = graph.model_with(values.to_vec()).expect("its parameters");
+                        let compiled = Model::new(Parameters::from_array(values));
+                        for model in [&compiled as &AnyModel<f64>, &evaluated] {
+                            let (mut joints, mut matrix, mut jacobian) = ([0.0; JOINTS], [0.0; JOINTS * JOINTS], [0.0; 3 * ARMS * JOINTS]);
+                            let mut bias = [0.0; JOINTS];
+                            let found = [
+                                model.forward_dynamics(&state, &forces, &mut joints).map(drop),
+                                model.reduced_dynamics(&state, &mut matrix, &mut bias, &mut jacobian),
+                                model.reduced_impact(&state, &targets, &mut matrix, &mut bias, &mut joints),
+                                model.full_impact(&state, &targets, &mut joints).map(drop),
+                            ];
+                            for found in found {
+                                let is_said = matches!(found, Err(Error::NotFinite { quantity: "parameters", index, .. }) if index == place)
+                                    || (is_end && matches!(found, Err(Error::NotFinite { .. })));
+                                assert!(is_said, "{} = {number}: {found:?}", parameter.name);
+                            }
                         }
                     }
                 }

@@ -240,6 +240,20 @@ fn what_is_no_number_together_is_not_merged() {
     }
 }
 
+/// With a base without mass a robot is singular, whatever its arms hold.
+#[test]
+fn a_singular_robot_is_not_merged() {
+    let mut values = Parameters::<f64>::default().to_array();
+    values[0] = 0.0;
+    let graph = evaluator("graphs", "dual_arm_3r").model_with(values.to_vec()).expect("its parameters");
+    let models: [Box<dyn CloneModel>; 2] = [Box::new(Model::new(Parameters::from_array(values))), Box::new(graph)];
+    let target = Target { mass: 10.0, inertia: 1.0, contact: [0.0, 0.5], twist: [0.0; 3] };
+    for mut model in models {
+        let merged = model.merge(&STATE.base_pose, STATE.joint_angles, &[None, Some(target)]);
+        assert!(matches!(merged, Err(Error::Singular { what: "the merged robot", .. })), "{merged:?}");
+    }
+}
+
 /// Results that overflow, of numbers that do not, and a robot without masses: errors, and zeros.
 #[test]
 fn what_has_no_result_is_zero() {
@@ -273,6 +287,27 @@ fn what_has_no_result_is_zero() {
         assert_eq!((joints, bias, inertia, jacobian), ([0.0; JOINTS], [0.0; JOINTS], [0.0; 36], [0.0; 36]));
         (joints, inertia, bias, jacobian) = ([7.0; JOINTS], [7.0; 36], [7.0; JOINTS], [7.0; 36]);
     }
+}
+
+/// Impulses and the base's twist, of finite velocities.
+#[test]
+fn impulses_that_overflow_are_refused() {
+    let (mut rates, mut twists, mut impulses) = ([0.0; JOINTS], [[0.0; 3]; ARMS], [[0.0; 3]; ARMS]);
+    let mut after = RigidImpactOutput { joint_rates: &mut rates, target_twists: &mut twists, impulses: &mut impulses };
+    let state = State { base_twist: [0.1, 0.2, 1e258], ..STATE };
+    let target = Target { mass: 10.0, inertia: 1.0, contact: [0.05, 5e134], twist: [0.0; 3] };
+    let found = exact(&Model::<f64>::default(), &state, &[Some(target), None], &mut after);
+    assert!(matches!(found, Err(Error::NotFinite { quantity: "impulses", .. })), "{found:?}");
+    // the paper's equations have the base's twist from the momentum, of rates that are finite
+    let target = Target { mass: 1.0, inertia: 1.0, contact: [0.05, 0.5], twist: [1e308, 0.0, 0.0] };
+    let mut workspace = PaperImpactWorkspace {
+        impact_matrix: &mut [0.0; JOINTS * JOINTS],
+        impact_momentum: &mut [0.0; JOINTS],
+        jacobian: &mut [0.0; 3 * ARMS * JOINTS],
+        mass_matrix: &mut [0.0; (3 + JOINTS) * (3 + JOINTS)],
+    };
+    let found = paper(&Model::<f64>::default(), &STATE, &[Some(target), None], &mut workspace, &mut after);
+    assert!(matches!(found, Err(Error::NotFinite { quantity: "base_twist", .. })), "{found:?}");
 }
 
 /// Batches of two instances, with one array that is too short.
