@@ -107,5 +107,5 @@ def scalar(name: str, unit: str, description: str, expression: ca.SX) -> Output:
 
 
 def smallest_pivot(expression: ca.SX) -> Output:
-    description = "smallest pivot relative to its scale; small, zero or NaN: singular"
+    description = "smallest pivot relative to its scale; small or zero: singular, NaN: singular or not finite"
     return scalar("smallest_pivot", "1", description, expression)
