@@ -6,7 +6,7 @@
 #[doc(hidden)]
 #[macro_export]
 macro_rules! implement_dynamics {
-    (4) => {
+    (5) => {
         $crate::implement_dynamics!(@one_by_one);
         $crate::implement_batch!();
     };
