@@ -20,7 +20,8 @@ pub trait Scalar:
     fn sin_cos(self) -> (Self, Self);
 
     /// (sine, cosine) of several angles in rad, at once where that is faster.
-    #[inline]
+    #[allow(clippy::inline_always, reason = "a call would leave a batch's processor features behind, and its vectors")]
+    #[inline(always)]
     fn sin_cos_all<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
         angles.map(Self::sin_cos)
     }
@@ -29,7 +30,8 @@ pub trait Scalar:
     /// that number where all of these are finite: each angle is valid, whatever the others are.
     ///
     /// Without a definition of its own, a scalar has what [`sin_cos_all`](Self::sin_cos_all) gives.
-    #[inline]
+    #[allow(clippy::inline_always, reason = "a call would leave a batch's processor features behind, and its vectors")]
+    #[inline(always)]
     fn sin_cos_of_sums<const N: usize, const K: usize, const M: usize>(
         sums: [Self; N],
         some: [Self; K],
