@@ -24,7 +24,7 @@ macro_rules! implement_dynamics {
             use $crate::target::{LinkInertia, Target};
             use $crate::validate::{
                 all_finite, are_regular_and_finite, array, array_mut, finite, finite_configuration, finite_joint_arrays, finite_target,
-                is_regular_and_finite, joint_arrays, pivot, rows_mut, store, store_rows,
+                is_regular_and_finite, joint_arrays, pivot, pivot_of, rows_mut, store, store_rows,
             };
 
             impl<T: Real> Robot<T> for Model<T> {
@@ -157,8 +157,7 @@ macro_rules! implement_dynamics {
                     let result = Model::reduced_impact_with_pivot::<false>(
                         self, pose, angles, rates, &masses, &inertias, &contacts, &twists,
                     );
-                    pivot("the impact matrix G", result.smallest_pivot)
-                        .or_else(|singular| finite("parameters", &self.parameters().to_array()).and(Err(singular)))?;
+                    pivot_of(|| self.parameters().to_array(), "the impact matrix G", result.smallest_pivot)?;
                     store("impact_matrix", result.impact_matrix.as_flattened(), impact_matrix)?;
                     store("impact_momentum", &result.impact_momentum, impact_momentum)?;
                     store("joint_rates_after", &result.joint_rates_after, joint_rates_after)

@@ -176,6 +176,16 @@ pub fn are_regular_and_finite<'a, T: Real + 'a, const N: usize>(
     is_regular_and_finite(parts.fold(smallest, unless_finite), slices)
 }
 
+/// As [`pivot`], or of parameters that are not finite [`Error::NotFinite`], for which a pivot is none, too.
+#[inline]
+pub fn pivot_of<T: Real, P: AsRef<[T]>>(
+    parameters: impl FnOnce() -> P,
+    what: &'static str,
+    smallest: T,
+) -> Result<(), Error> {
+    pivot(what, smallest).or_else(|singular| finite("parameters", parameters().as_ref()).and(Err(singular)))
+}
+
 /// [`Error::Singular`] unless the smallest relative pivot exceeds 8 ε.
 #[inline]
 pub fn pivot<T: Real>(what: &'static str, smallest: T) -> Result<(), Error> {

@@ -10,7 +10,7 @@ use planar_dynamics::objection::{to_accelerations_of, to_parameters};
 use planar_dynamics::state::{Forces, State};
 use planar_dynamics::target::Target;
 use planar_dynamics::validate::{
-    finite, finite_configuration, finite_state, finite_target, is_regular_and_finite, length, pivot, store,
+    finite, finite_configuration, finite_state, finite_target, is_regular_and_finite, length, pivot_of, store,
 };
 use planar_dynamics::{element, with_quantities};
 
@@ -69,11 +69,6 @@ impl GraphModel {
         length("joint_rates", self.joints(), state.joint_rates.len())
     }
 
-    /// [`pivot`], or of parameters that are not finite [`Error::NotFinite`].
-    fn check_pivot(&self, what: &'static str, smallest: f64) -> Result<(), Error> {
-        pivot(what, smallest).or_else(|singular| finite("parameters", self.parameters()).and(Err(singular)))
-    }
-
     /// Targets with finite numbers, one per arm.
     pub(super) fn check_targets(&self, targets: &[Option<Target<f64>>]) -> Result<(), Error> {
         length("targets", self.arms(), targets.len())?;
@@ -123,7 +118,7 @@ impl ReducedDynamics<f64> for GraphModel {
         self.check(state)?;
         finite_state(state)?;
         self.call(self.evaluator().functions.reduced_dynamics, &of_state(state), |results| {
-            self.check_pivot("the base inertia", results.scalar(3))?;
+            pivot_of(|| self.parameters(), "the base inertia", results.scalar(3))?;
             let [inertia, bias, jacobian] = [0, 1, 2].map(|output| results.elements(output).collect::<Vec<_>>());
             store("generalized_inertia", &inertia, generalized_inertia)?;
             store("generalized_bias", &bias, generalized_bias)?;
@@ -206,7 +201,7 @@ impl Impact<f64> for GraphModel {
         let inputs: [&[f64]; 7] =
             [&state.base_pose, state.joint_angles, state.joint_rates, &masses, &inertias, &contacts, &twists];
         self.call(self.evaluator().functions.reduced_impact, &inputs, |results| {
-            self.check_pivot("the impact matrix G", results.scalar(3))?;
+            pivot_of(|| self.parameters(), "the impact matrix G", results.scalar(3))?;
             let [matrix, momentum, rates] = [0, 1, 2].map(|output| results.elements(output).collect::<Vec<_>>());
             store("impact_matrix", &matrix, impact_matrix)?;
             store("impact_momentum", &momentum, impact_momentum)?;
@@ -227,7 +222,7 @@ impl Impact<f64> for GraphModel {
         let [pose, angles, twist, rates] = of_state(state);
         let inputs = [pose, angles, twist, rates, &masses, &inertias, &contacts, &twists];
         self.call(self.evaluator().functions.full_impact, &inputs, |results| {
-            self.check_pivot("the impact matrix G in full coordinates", results.scalar(2))?;
+            pivot_of(|| self.parameters(), "the impact matrix G in full coordinates", results.scalar(2))?;
             let (base, after) = (triple(results, 0), results.elements(1).collect::<Vec<_>>());
             finite("base_twist_after", &base)?;
             store("joint_rates_after", &after, joint_rates_after)?;

@@ -155,21 +155,28 @@ macro_rules! pivots {
                 }
             }
 
-            #[test]
-            fn a_parameter_that_is_not_finite_shows() {
+            /// A robot with one parameter that is not finite: which, its place, whether it is the length of a last link, and all.
+            fn not_finite(mut check: impl FnMut(&str, usize, bool, [f64; PARAMETERS])) {
                 for (place, parameter) in MANIFEST.parameters.iter().enumerate() {
+                    let is_end =
+                        parameter.kind == ParameterKind::LinkLength && parameter.link + 1 == MANIFEST.links[parameter.arm];
                     for number in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
                         let mut values = parameters();
                         values[place] = number;
-                        // where an end effector is matters to what acts there alone
-                        let is_end = parameter.kind == ParameterKind::LinkLength
-                            && parameter.link + 1 == MANIFEST.links[parameter.arm];
-                        for Call { function, pivot, .. } in calls(values, &inputs()) {
-                            let matters = !is_end || !["forward_dynamics", "forward_dynamics_with_base_wrench"].contains(&function);
-                            assert_eq!(pivot.is_nan(), matters, "{function}: {} = {number}: {pivot}", parameter.name);
-                        }
+                        check(&format!("{} = {number}", parameter.name), place, is_end, values);
                     }
                 }
+            }
+
+            #[test]
+            fn a_parameter_that_is_not_finite_shows() {
+                not_finite(|which, _, is_end, values| {
+                    for Call { function, pivot, .. } in calls(values, &inputs()) {
+                        // where an end effector is matters to what acts there alone
+                        let matters = !is_end || !["forward_dynamics", "forward_dynamics_with_base_wrench"].contains(&function);
+                        assert_eq!(pivot.is_nan(), matters, "{function}: {which}: {pivot}");
+                    }
+                });
             }
 
             /// Traits tell it from a singular robot, though the pivot is none for both.
@@ -182,32 +189,26 @@ macro_rules! pivots {
                 let state = RobotState { joint_angles: [0.4; JOINTS], joint_rates: [0.1; JOINTS], base_pose: [0.3; 3], base_twist: [0.2; 3] };
                 let state = state.view();
                 let graph = evaluator("graphs", stringify!($name));
-                for (place, parameter) in MANIFEST.parameters.iter().enumerate() {
-                    for number in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-                        let mut values = parameters();
-                        values[place] = number;
-                        // where an end effector is may be in a result and in no pivot
-                        let is_end = parameter.kind == ParameterKind::LinkLength
-                            && parameter.link + 1 == MANIFEST.links[parameter.arm];
-                        let evaluated = graph.model_with(values.to_vec()).expect("its parameters");
-                        let compiled = Model::new(Parameters::from_array(values));
-                        for model in [&compiled as &AnyModel<f64>, &evaluated] {
-                            let (mut joints, mut matrix, mut jacobian) = ([0.0; JOINTS], [0.0; JOINTS * JOINTS], [0.0; 3 * ARMS * JOINTS]);
-                            let mut bias = [0.0; JOINTS];
-                            let found = [
-                                model.forward_dynamics(&state, &forces, &mut joints).map(drop),
-                                model.reduced_dynamics(&state, &mut matrix, &mut bias, &mut jacobian),
-                                model.reduced_impact(&state, &targets, &mut matrix, &mut bias, &mut joints),
-                                model.full_impact(&state, &targets, &mut joints).map(drop),
-                            ];
-                            for found in found {
-                                let is_said = matches!(found, Err(Error::NotFinite { quantity: "parameters", index, .. }) if index == place)
-                                    || (is_end && matches!(found, Err(Error::NotFinite { .. })));
-                                assert!(is_said, "{} = {number}: {found:?}", parameter.name);
-                            }
+                not_finite(|which, place, is_end, values| {
+                    let evaluated = graph.model_with(values.to_vec()).expect("its parameters");
+                    let compiled = Model::new(Parameters::from_array(values));
+                    for model in [&compiled as &AnyModel<f64>, &evaluated] {
+                        let (mut joints, mut matrix, mut jacobian) = ([0.0; JOINTS], [0.0; JOINTS * JOINTS], [0.0; 3 * ARMS * JOINTS]);
+                        let mut bias = [0.0; JOINTS];
+                        let found = [
+                            model.forward_dynamics(&state, &forces, &mut joints).map(drop),
+                            model.reduced_dynamics(&state, &mut matrix, &mut bias, &mut jacobian),
+                            model.reduced_impact(&state, &targets, &mut matrix, &mut bias, &mut joints),
+                            model.full_impact(&state, &targets, &mut joints).map(drop),
+                        ];
+                        for found in found {
+                            // where an end effector is may be in a result and in no pivot
+                            let is_said = matches!(found, Err(Error::NotFinite { quantity: "parameters", index, .. }) if index == place)
+                                || (is_end && matches!(found, Err(Error::NotFinite { .. })));
+                            assert!(is_said, "{which}: {found:?}");
                         }
                     }
-                }
+                });
             }
 
             /// In one lane, it leaves the others alone.
