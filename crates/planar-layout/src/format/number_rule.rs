@@ -181,7 +181,8 @@ impl NumberRule {
         }
         if number != 0.0 && !(SMALLEST..=self.largest).contains(&number.abs()) {
             let largest = self.largest;
-            return hint(Some(format!("the number must be 0 or of a magnitude from {SMALLEST:e} to {largest:e}")));
+            let zero = if matches!(self.minimum, Minimum::AboveZero) { "" } else { "0 or " };
+            return hint(Some(format!("the number must be {zero}of a magnitude from {SMALLEST:e} to {largest:e}")));
         }
         let too_small = match self.minimum {
             Minimum::None => false,
@@ -193,8 +194,9 @@ impl NumberRule {
             _ if self.is_whole && number.fract() != 0.0 => hint(None),
             _ if too_small || self.below.is_some_and(|below| number >= below) => hint(None),
             (Some(WrongUnit { limit, unit, factor }), _) if number.abs() > limit => {
-                let converted = number * factor;
-                hint(Some(format!("this looks like {unit}: {number:?} {unit} = {converted:?} {}", self.unit)))
+                let (converted, limit, right) = (number * factor, short(limit), self.unit);
+                let looks = format!("this looks like {unit}: {number:?} {unit} = {converted:?} {right}");
+                hint(Some(format!("{looks}; the magnitude is at most {limit} {right}")))
             }
             (_, Some(Range { least, most, why: Some(why) })) => {
                 Err(Refusal::Reason(format!("expected {} to {}: {why}", short(least), short(most))))
