@@ -165,10 +165,12 @@ pub trait Impact<T: Real> {
 
 /// Merging of captured targets into the robot.
 pub trait Merge<T: Real> {
-    /// Makes each target, held at its contact point by the end effector, part of the last link of its arm.
+    /// Makes each target, held at its contact point by the end effector, part of the last link of its arm. With a target's
+    /// mass or inertia below 0 the merged robot may have one, too, which is not looked for.
     ///
     /// # Errors
-    /// [`Error::Length`], [`Error::NotFinite`]; the model is then unchanged.
+    /// [`Error::Length`], [`Error::NotFinite`], and [`Error::Singular`] where a mass or moment of inertia is 0; the model is
+    /// then unchanged.
     fn merge(&mut self, base_pose: &[T; 3], joint_angles: &[T], targets: &[Option<Target<T>>]) -> Result<(), Error>;
 }
 
