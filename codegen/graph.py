@@ -19,7 +19,7 @@ from .statements import NodeSection, Statements, count, evaluation_order
 from .symbols import Symbols
 from .value_numbering import Stage, ValueNumbering
 
-FORMAT = 2
+FORMAT = 3
 
 
 def build(functions: Functions, command: str | None = None) -> dict:

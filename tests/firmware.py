@@ -361,8 +361,10 @@ LTO, C with `-O2 -ffp-contract=off`.
   the most of 100 such states. Where the sum of yaw and joint angles of a link is beyond the largest number, it counts
   as that number. PD control, whose torques would be infinite at most of these, then ends before the step.
 - **What is built.** Programs for the M4F are built for the target's default processor, those for the M7 with
-  `-C target-cpu=cortex-m7`. Of the exact impact in Rust the velocities are used; the compiler leaves out that its
-  matrix and momentum are stored, which C always does.
+  `-C target-cpu=cortex-m7`. With `-C target-cpu=cortex-m4` the compiler replaces each `VMLA`, of three cycles there, by a
+  product and a sum of one cycle each: up to a fifth more instructions (914 in forward dynamics of the module, in `f32`)
+  that take less time. Of the exact impact in Rust the velocities are used, and the compiler leaves out that its matrix
+  and momentum are stored; who keeps them, has them in a frame of their own: 360 bytes in `f32`. C always stores them.
 - **Stack** is painted, below the caller's own: the most of all these states. The library's integrator works in memory
   of the caller, three vectors of the state, which the example keeps with the state: 252 bytes in `f32`, 504 in `f64`.
 - **Inputs that have no result.** The `smallest_pivot` of a module's functions is not a number where an input or a

@@ -152,10 +152,10 @@ fn build_errors_name_a_remedy() {
     assert!(missing.contains("dual_arm_3r.json") && missing.contains(mend), "{missing}");
     let orphan = broken(|dir| fs::remove_file(dir.join("layouts/dual_arm_3r.toml")).expect("removed"));
     assert!(orphan.contains("has no layout"), "{orphan}");
-    let cut = broken(|dir| fs::write(dir.join("graphs/dual_arm_3r.json"), "{\"format\": 2").expect("written"));
+    let cut = broken(|dir| fs::write(dir.join("graphs/dual_arm_3r.json"), "{\"format\": 3").expect("written"));
     assert!(cut.contains("not JSON") && cut.contains(mend), "{cut}");
-    let older = broken(|dir| edit(&dir.join("graphs/dual_arm_3r.json"), "\"format\": 2", "\"format\": 1"));
-    assert!(older.contains("it has format 1, this version reads format 2; generate it again"), "{older}");
+    let older = broken(|dir| edit(&dir.join("graphs/dual_arm_3r.json"), "\"format\": 3", "\"format\": 1"));
+    assert!(older.contains("it has format 1, this version reads format 3; generate it again"), "{older}");
     assert!(older.contains(mend), "{older}");
     let unknown = broken(|dir| edit(&dir.join("graphs/dual_arm_3r.json"), "\"mul\", ", "\"mull\", "));
     assert!(unknown.contains("`mull`") && unknown.contains(mend), "{unknown}");

@@ -25,9 +25,6 @@ pub struct Graph {
     pub(crate) families: Vec<Family>,
     /// Reference vectors of a proved graph.
     pub(crate) self_test: Option<Vec<ReferenceState>>,
-    /// The parameters that the reference vectors hold for, where they are not the defaults.
-    #[serde(skip)]
-    pub(crate) reference_parameters: Option<Vec<f64>>,
 }
 
 /// The layout that a graph was derived from.
@@ -201,11 +198,16 @@ impl Visitor<'_> for OperandVisitor {
     }
 }
 
-/// One state with every result of every function there, in the graph's order; lists are row-major.
+/// One state of a robot with every result of every function there, in the graph's order; lists are row-major.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct ReferenceState {
+    /// Of the robot, which need not be the layout's: one number for each parameter of the graph.
+    pub parameters: Vec<f64>,
     pub inputs: Vec<Given>,
     pub expected: Vec<FunctionResult>,
+    /// A result that there is not in single precision, in words.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub double_alone: Option<String>,
 }
 
 #[derive(Clone, Debug, Deserialize, Serialize)]

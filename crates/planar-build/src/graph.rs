@@ -32,7 +32,7 @@ use std::collections::HashMap;
 use std::fmt::Debug;
 
 /// The format of the graphs that are read.
-pub const FORMAT: u64 = 2;
+pub const FORMAT: u64 = 3;
 
 /// Why a graph cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -95,8 +95,6 @@ pub(crate) fn read_for(text: &str, layout: &Layout) -> Result<Graph, GraphError>
             GraphError::Structure(found.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))
         }
     })?;
-    let defaults: Vec<f64> = graph.parameters.iter().map(|parameter| parameter.default).collect();
-    graph.reference_parameters = (defaults != values).then_some(defaults);
     for (parameter, value) in graph.parameters.iter_mut().zip(values) {
         parameter.default = value;
         // "… of arm 1 (NAME)"

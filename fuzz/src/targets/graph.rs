@@ -57,7 +57,8 @@ fn part(whole: &Value, family: &Value) -> Value {
     });
     let inputs: Vec<Value> = inputs.collect();
     let expected = json!([{"function": function, "output": output, "values": [0.5], "sizes": [1.0]}]);
-    graph["self_test"] = json!([{"inputs": inputs, "expected": expected}]);
+    let parameters = vec![1.0; graph["parameters"].as_array().expect("parameters").len()];
+    graph["self_test"] = json!([{"parameters": parameters, "inputs": inputs, "expected": expected}]);
     graph
 }
 

@@ -12,29 +12,23 @@ const FACTOR: f64 = 4.0;
 ///
 /// # Errors
 /// What the graph lacks.
-pub fn with_derivatives(
-    graph: &Graph,
-    reference: Reference,
-    parameters: &[f64],
-    direction: &[Given],
-) -> Result<Reference, String> {
-    let Reference { layout, mut state, mut roundings } = reference;
+pub fn with_derivatives(graph: &Graph, reference: Reference, direction: &[Given]) -> Result<ReferenceState, String> {
+    let Reference { mut state, roundings } = reference;
     let directions = graph.inputs.iter().filter_map(|input| {
         let of = input.name.strip_suffix("_direction")?;
         Some(Given {
             name: input.name.clone(),
-            values: values_of(direction, of).unwrap_or_else(|| of_parameters(parameters)),
+            values: values_of(direction, of).unwrap_or_else(|| of_parameters(&state.parameters)),
         })
     });
     state.inputs.extend(directions);
-    let (mut derived, mut allowed) = (Vec::new(), Vec::new());
+    let mut derived = Vec::new();
     for function in graph.functions() {
         for output in &function.outputs {
             if let Some(derivative) = output.derivative.as_ref().filter(|_| output.name != PIVOT) {
-                let point = Point { graph, parameters, state: &state, roundings: &roundings, derivative };
+                let point = Point { graph, state: &state, roundings: &roundings, derivative };
                 let rows = point.rows()?;
                 let [values, sizes] = point.expected(output, &rows)?;
-                allowed.push(FACTOR * rows.iter().fold(0.0, |most: f64, row| most.max(row.roundings)));
                 derived.push(FunctionResult {
                     function: function.name.clone(),
                     output: output.name.clone(),
@@ -45,8 +39,7 @@ pub fn with_derivatives(
         }
     }
     state.expected.extend(derived);
-    roundings.extend(allowed);
-    Ok(Reference { layout, state, roundings })
+    Ok(state)
 }
 
 fn values_of(given: &[Given], name: &str) -> Option<Vec<f64>> {
@@ -62,7 +55,6 @@ fn of_parameters(parameters: &[f64]) -> Vec<f64> {
 /// A derivative at a state.
 struct Point<'a> {
     graph: &'a Graph,
-    parameters: &'a [f64],
     state: &'a ReferenceState,
     roundings: &'a [f64],
     derivative: &'a Derivative,
@@ -135,8 +127,7 @@ impl Point<'_> {
     fn column(&self, direction: &dyn Fn(&str, usize) -> f64) -> Result<Vec<f64>, String> {
         let Derivative { function, outputs, .. } = self.derivative;
         let dual = |name: &str, i: usize, value: f64| Dual(value, direction(name, i));
-        let arguments = Arguments { inputs: &self.state.inputs, parameters: self.parameters };
-        let found = interpret_some(self.graph, arguments, &dual, &|other| other.name == *function)?;
+        let found = interpret_some(self.graph, Arguments::of(self.state), &dual, &|other| other.name == *function)?;
         let results = outputs.iter().filter_map(|output| found.iter().find(|found| found.output == *output));
         Ok(results.flat_map(|result| result.values.iter().map(|value| value.1)).collect())
     }

@@ -1,7 +1,8 @@
 //! Interprets a graph: computes what the rendered code will compute, without compiling it.
 
 use crate::evaluator::impact_equations;
-use crate::format::{Function, FunctionResult, Given, Graph, Operand, Operation, Statement, Variable};
+use crate::format::{Function, FunctionResult, Given, Graph, Operand, Operation, ReferenceState, Statement, Variable};
+use crate::prove::perturbed::Perturbed;
 use planar_dynamics::scalar::Scalar;
 use std::collections::HashMap;
 
@@ -10,6 +11,13 @@ use std::collections::HashMap;
 pub struct Arguments<'a> {
     pub inputs: &'a [Given],
     pub parameters: &'a [f64],
+}
+
+impl<'a> Arguments<'a> {
+    /// Those of a reference state.
+    pub fn of(state: &'a ReferenceState) -> Self {
+        Self { inputs: &state.inputs, parameters: &state.parameters }
+    }
 }
 
 /// Every result of every function, in the graph's order.
@@ -26,11 +34,24 @@ pub fn interpret(graph: &Graph, arguments: Arguments<'_>) -> Result<Vec<Function
 /// As [`interpret`].
 pub fn interpret_in_single_precision(graph: &Graph, arguments: Arguments<'_>) -> Result<Vec<FunctionResult>, String> {
     let found = interpret_some(graph, arguments, &|_, _, value| f32::constant(value), &|_| true)?;
+    Ok(in_double(found, f64::from))
+}
+
+/// As [`interpret`], with numbers that are off, in each run otherwise.
+///
+/// # Errors
+/// As [`interpret`].
+pub fn interpret_perturbed(graph: &Graph, arguments: Arguments<'_>, run: u64) -> Result<Vec<FunctionResult>, String> {
+    let found = interpret_some(graph, arguments, &|_, _, value| Perturbed::new(value, run), &|_| true)?;
+    Ok(in_double(found, |number| number.value))
+}
+
+fn in_double<T>(found: Vec<FunctionResult<T>>, value: fn(T) -> f64) -> Vec<FunctionResult> {
     let double = |FunctionResult { function, output, values, sizes }| {
-        let values = values.into_iter().map(f64::from).collect();
+        let values = values.into_iter().map(value).collect();
         FunctionResult { function, output, values, sizes }
     };
-    Ok(found.into_iter().map(double).collect())
+    found.into_iter().map(double).collect()
 }
 
 /// The results of the functions that rendered code computes in loops, as it does: from their matrices.

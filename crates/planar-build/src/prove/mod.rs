@@ -26,6 +26,7 @@ mod generic_results;
 mod impact_results;
 mod interpreter;
 pub mod owned;
+mod perturbed;
 mod pivots;
 pub mod quantities;
 pub mod rigid_capture;
@@ -35,24 +36,21 @@ mod vectors;
 pub use derivation::{DerivationError, derive, derive_by, home, package_hash};
 
 use crate::evaluator::Evaluator;
-use crate::format::{FunctionResult, PIVOT, ReferenceState};
+use crate::format::{FunctionResult, Given, PIVOT, ReferenceState};
 use crate::graph::{self, Graph, GraphError};
-use crate::prove::sampling::{REGIMES, Regime};
+use crate::prove::sampling::{REGIMES, Regime, RegimeSample, balanced};
 use derivatives::with_derivatives;
 use impact_results::EXACT;
-use interpreter::{Arguments, interpret, interpret_in_single_precision, interpret_loops};
+use interpreter::{Arguments, interpret, interpret_loops};
 use planar_dynamics::error::Error;
 use planar_layout::layout::Layout;
 use planar_layout::structure::{Structure, parameters};
 use serde_json::json;
 use std::fmt;
-use vectors::{Reference, direction, reference_state};
+use vectors::{direction, reference_state};
 
 /// States of each regime that a graph is proved at.
 const SAMPLES: u64 = 3;
-
-/// States whose results a module contains for its own test.
-const CARRIED: u64 = 2;
 
 /// There is no code for a layout.
 #[derive(Debug, thiserror::Error)]
@@ -123,6 +121,8 @@ pub struct Proved {
     pub text: String,
     /// The result of its proof.
     pub proof: Proof,
+    /// Why modules made from it are for double precision alone, where single precision does not hold the robot.
+    pub double_alone: Option<String>,
 }
 
 /// Proves the graph that was derived from a layout, and adds reference vectors to it: results of the generic
@@ -137,24 +137,24 @@ pub fn complete(graph_text: &str, layout: &Layout) -> Result<Proved, GenerateErr
     }
     let proof = prove(layout, &graph)?;
     let structure = graph::structure(&graph)?;
-    let (mut references, mut found) = (Vec::new(), Vec::new());
-    for index in 0..CARRIED {
-        let (reference, parameters) = sample(layout, (&graph, &structure), Regime::Moving, index)?;
-        let arguments = Arguments { inputs: &reference.state.inputs, parameters: &parameters };
-        let single = interpret_in_single_precision(&graph, arguments).map_err(GraphError::Format)?;
-        found.push([interpret(&graph, arguments).map_err(GraphError::Format)?, single]);
-        references.push(reference);
+    let samples =
+        [(Regime::Moving.name(), Regime::Moving.sample(layout, 0, 0)), ("balanced", balanced(layout, &structure))];
+    let (mut states, mut double_alone): (Vec<ReferenceState>, _) = (Vec::new(), None);
+    for (regime, sample) in samples {
+        let direction = direction(layout, 0);
+        let reference = reference(sample, (&graph, &structure), &direction, (regime, 0))?;
+        largest_error(&graph, &reference, (regime, 0))?;
+        let state = reference.of_own_test(&graph).map_err(GraphError::Format)?;
+        double_alone = double_alone.or_else(|| state.double_alone.clone());
+        states.push(state);
     }
-    Reference::narrow(&mut references, &found);
-    let states = references.iter().zip(&found).map(|(reference, [found, _])| reference.state.in_order_of(found));
-    let states: Vec<ReferenceState> = states.collect();
     // a state a line, after what the derivation wrote
     let lines: Vec<String> = states.iter().map(|state| json!(state).to_string()).collect();
     let lines = lines.join(",\n  ");
     let end = graph_text.trim_end().strip_suffix('}').unwrap_or(graph_text).trim_end();
     let text = format!("{end},\n \"self_test\": [\n  {lines}\n ]\n}}\n");
     graph.self_test = Some(states);
-    Ok(Proved { graph, text, proof })
+    Ok(Proved { graph, text, proof, double_alone })
 }
 
 /// Compares the results of a graph, which is interpreted, with the generic implementation: every result of every
@@ -171,48 +171,63 @@ pub fn prove(layout: &Layout, graph: &Graph) -> Result<Proof, GenerateError> {
     let mut proof = Proof { states: 0, results: 0, worst: 0.0 };
     for regime in REGIMES {
         for index in 0..SAMPLES {
-            let (Reference { state, .. }, parameters) = sample(layout, (graph, structure), regime, index)?;
-            let arguments = Arguments { inputs: &state.inputs, parameters: &parameters };
-            let mut found = interpret(graph, arguments).map_err(GraphError::Format)?;
-            found.retain(|found| found.output != PIVOT);
-            if found.len() != state.expected.len() {
-                let problem = "it has other results than the generic implementation";
-                return Err(GraphError::Format(problem.to_owned()).into());
-            }
-            let in_loops = interpret_loops(graph, arguments).map_err(GraphError::Format)?;
-            found.extend(in_loops.into_iter().filter(|found| found.output != PIVOT));
-            for found in found {
-                let error =
-                    state.expected(&found).map_or(f64::INFINITY, |expected| expected.error(&found, f64::EPSILON));
-                if error > 1.0 {
-                    let FunctionResult { function, output, .. } = found;
-                    return Err(GenerateError::Disagreement { function, output, error, regime: regime.name(), index });
-                }
-                proof.worst = proof.worst.max(error);
-            }
+            let state = sampled(layout, (graph, structure), regime, index)?;
+            proof.worst = proof.worst.max(largest_error(graph, &state, (regime.name(), index))?);
             proof.states += 1;
             proof.results = state.expected.len();
         }
     }
-    let (Reference { state, .. }, parameters) = sample(layout, (graph, structure), Regime::Moving, 0)?;
-    pivots::check(graph, structure, Arguments { inputs: &state.inputs, parameters: &parameters })?;
+    let state = sampled(layout, (graph, structure), Regime::Moving, 0)?;
+    pivots::check(graph, structure, Arguments::of(&state))?;
     Ok(proof)
 }
 
-/// A state with the results of the generic implementation, and what derivatives of these the graph has; and the values of
-/// the graph's parameters.
-fn sample(
+/// The largest difference of a result of the graph, which is interpreted, from the generic implementation's, over what is
+/// allowed; `place` is the regime and the index of the state.
+fn largest_error(graph: &Graph, state: &ReferenceState, place: (&'static str, u64)) -> Result<f64, GenerateError> {
+    let arguments = Arguments::of(state);
+    let mut found = interpret(graph, arguments).map_err(GraphError::Format)?;
+    found.retain(|found| found.output != PIVOT);
+    if found.len() != state.expected.len() {
+        let problem = "it has other results than the generic implementation";
+        return Err(GraphError::Format(problem.to_owned()).into());
+    }
+    let in_loops = interpret_loops(graph, arguments).map_err(GraphError::Format)?;
+    found.extend(in_loops.into_iter().filter(|found| found.output != PIVOT));
+    let mut worst: f64 = 0.0;
+    for found in found {
+        let error = state.expected(&found).map_or(f64::INFINITY, |expected| expected.error(&found));
+        if error > 1.0 {
+            let (FunctionResult { function, output, .. }, (regime, index)) = (found, place);
+            return Err(GenerateError::Disagreement { function, output, error, regime, index });
+        }
+        worst = worst.max(error);
+    }
+    Ok(worst)
+}
+
+/// [`reference`] of a sample of a regime.
+fn sampled(
     layout: &Layout,
-    (graph, structure): (&Graph, &Structure),
+    graph: (&Graph, &Structure),
     regime: Regime,
     index: u64,
-) -> Result<(Reference, Vec<f64>), GenerateError> {
-    let failed = |source| GenerateError::NoReference { regime: regime.name(), index, source };
-    let mut functions = graph.functions();
-    let has_impact_results = functions.any(|function| function.name == EXACT);
-    let reference = reference_state(layout, regime, index, has_impact_results).map_err(failed)?;
-    let parameters = parameters(structure, &reference.layout)
+) -> Result<ReferenceState, GenerateError> {
+    let direction = direction(layout, index);
+    reference(regime.sample(layout, 0, index), graph, &direction, (regime.name(), index))
+}
+
+/// The results of the generic implementation, and what derivatives of these the graph has, along a direction.
+fn reference(
+    sample: RegimeSample,
+    (graph, structure): (&Graph, &Structure),
+    direction: &[Given],
+    (regime, index): (&'static str, u64),
+) -> Result<ReferenceState, GenerateError> {
+    let failed = |source| GenerateError::NoReference { regime, index, source };
+    let parameters = parameters(structure, &sample.layout)
         .map_err(|_| GraphError::Format("its structure is not the layout's".to_owned()))?;
-    let reference = with_derivatives(graph, reference, &parameters, &direction(layout, index));
-    Ok((reference.map_err(GraphError::Format)?, parameters))
+    let has_impact_results = graph.functions().any(|function| function.name == EXACT);
+    let reference = reference_state(sample, parameters, has_impact_results).map_err(failed)?;
+    Ok(with_derivatives(graph, reference, direction).map_err(GraphError::Format)?)
 }

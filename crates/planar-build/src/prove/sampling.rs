@@ -19,8 +19,10 @@
 
 use crate::prove::evaluation::EvaluationInput;
 use crate::prove::owned::RobotState;
+use planar_dynamics::manifest::ParameterKind;
 use planar_dynamics::target::Target;
 use planar_layout::layout::Layout;
+use planar_layout::structure::Structure;
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng, SeedableRng};
 use std::f64::consts::PI;
@@ -183,6 +185,50 @@ impl Regime {
             twist: random.vector(1.0),
         })
     }
+}
+
+/// A moving robot of a structure whose numbers are all others than the layout's, of like size, and of four digits, so that each
+/// parameter, force and target has a part in the results. Its bodies are about as heavy as the layout's heaviest link, and
+/// about as long as its longest.
+pub(super) fn balanced(layout: &Layout, structure: &Structure) -> RegimeSample {
+    let mut random = Random::new(1, Regime::OtherShape, 0);
+    let links = || layout.arms.iter().flat_map(|arm| &arm.links);
+    let mass = links().map(|link| link.mass).fold(0.0, f64::max);
+    let length = links().map(|link| link.length).fold(0.0, f64::max);
+    // a robot of wheels alone has none
+    let length = if length > 0.0 { length } else { 1.0 };
+    let mut layout = layout.clone();
+    for (kind, arm, link) in &structure.parameters {
+        let (size, has_sign) = match kind {
+            ParameterKind::BaseMass | ParameterKind::LinkMass => (mass, false),
+            ParameterKind::BaseInertia | ParameterKind::LinkInertia => (0.1 * mass * length * length, false),
+            ParameterKind::LinkLength => (length, false),
+            ParameterKind::MountAngle => (1.0, true),
+            ParameterKind::MountX | ParameterKind::MountY => (0.5 * length, true),
+            ParameterKind::LinkComX | ParameterKind::LinkComY => (0.3 * length, true),
+        };
+        let sign = if has_sign && random.coin() { -1.0 } else { 1.0 };
+        let number = four_digits(sign * size * random.factor());
+        if let Some(place) = layout.number(*kind, *arm, *link) {
+            *place = number;
+        }
+    }
+    let units = Units { mass, length };
+    let mut instant = Regime::Moving.instant(&layout, &units, &mut random);
+    instant.base_wrench = Some(units.wrench(random.vector(10.0)));
+    instant.end_effector_wrenches = Some(layout.arms.iter().map(|_| units.wrench(random.vector(10.0))).collect());
+    instant.targets = layout.arms.iter().map(|_| Some(Regime::Moving.target(&units, &mut random))).collect();
+    RegimeSample { layout, instant }
+}
+
+/// A number with four digits.
+pub(super) fn four_digits(number: f64) -> f64 {
+    rounded(number, 3)
+}
+
+/// A number with so many decimals in scientific notation.
+pub(super) fn rounded(number: f64, decimals: usize) -> f64 {
+    format!("{number:.decimals$e}").parse().expect("a number that was written is read")
 }
 
 /// Other numbers of the same structure: zeros stay, save those of the last links' centres of mass.

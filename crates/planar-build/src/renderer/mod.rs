@@ -331,25 +331,28 @@ fn self_test(graph: &Graph, states: &[ReferenceState]) -> Value {
         });
         json!({"name": function.name, "inputs": function.inputs, "slices": slices.collect::<Vec<_>>()})
     });
-    let states = states.iter().map(|ReferenceState { inputs, expected }| {
+    let double_alone = states.iter().find_map(|state| state.double_alone.as_deref()).map(printable);
+    let texts = |numbers: &[f64]| numbers.iter().map(|number| format!("{number:?}")).collect::<Vec<_>>();
+    let states = states.iter().map(|ReferenceState { parameters, inputs, expected, .. }| {
         let inputs = inputs.iter().map(|given| {
-            let numbers: Vec<String> = given.values.iter().map(|number| format!("{number:?}")).collect();
-            json!({"name": given.name, "value": nested(&input(graph, &given.name).shape, &numbers)})
+            json!({"name": given.name, "value": nested(&input(graph, &given.name).shape, &texts(&given.values))})
         });
         let expected = expected.iter().map(|expected| {
-            let values: Vec<String> = expected.values.iter().map(|number| format!("{number:?}")).collect();
+            let values = texts(&expected.values);
             let sizes: Vec<String> = expected.sizes.iter().map(|size| format!("{size:.1e}")).collect();
             json!({"function": expected.function, "output": expected.output, "values": values, "sizes": sizes})
         });
-        json!({"inputs": inputs.collect::<Vec<_>>(), "expected": expected.collect::<Vec<_>>()})
+        json!({
+            "parameters": texts(parameters),
+            "inputs": inputs.collect::<Vec<_>>(),
+            "expected": expected.collect::<Vec<_>>(),
+        })
     });
     json!({
         "inputs": inputs.collect::<Vec<_>>(),
         "functions": functions.collect::<Vec<_>>(),
         "states": states.collect::<Vec<_>>(),
-        "parameters": graph.reference_parameters.as_ref().map(|values| {
-            values.iter().map(|value| format!("{value:?}")).collect::<Vec<_>>().join(", ")
-        }),
+        "double_alone": double_alone,
     })
 }
 

@@ -144,6 +144,10 @@ fn check_function<'a>(
 /// The reference vectors: of inputs and results that there are.
 fn self_test(graph: &Graph) -> Result<(), String> {
     for state in graph.self_test.iter().flatten() {
+        let (found, wanted) = (state.parameters.len(), graph.parameters.len());
+        if found != wanted {
+            return Err(format!("a state of its test has {found} parameters, the graph has {wanted}"));
+        }
         let given: Vec<&str> = state.inputs.iter().map(|given| given.name.as_str()).collect();
         if given.len() != graph.inputs.len() {
             return Err("a state of its test has other inputs than the graph".to_owned());
@@ -223,11 +227,18 @@ mod tests {
                 sizes: Vec::new(),
             }));
         }
-        graph.self_test = Some(vec![ReferenceState { inputs: inputs.clone(), expected: results.clone() }]);
+        let parameters = vec![1.0; graph.parameters.len()];
+        let state = ReferenceState { parameters, inputs, expected: results, double_alone: None };
+        graph.self_test = Some(vec![state.clone()]);
         assert_eq!(check(&graph), Ok(()));
         // in the place of another, so that their number is right
-        *results.last_mut().expect("results") = results[0].clone();
-        graph.self_test = Some(vec![ReferenceState { inputs, expected: results }]);
+        let mut twice = state.clone();
+        *twice.expected.last_mut().expect("results") = state.expected[0].clone();
+        graph.self_test = Some(vec![twice]);
         assert_eq!(check(&graph), Err("its test expects a result twice".to_owned()));
+        let fewer = ReferenceState { parameters: state.parameters[1..].to_vec(), ..state };
+        graph.self_test = Some(vec![fewer]);
+        let refused = check(&graph).expect_err("a parameter is missing");
+        assert!(refused.contains("parameters, the graph has"), "{refused}");
     }
 }

@@ -250,6 +250,29 @@ impl Layout {
         all
     }
 
+    /// One of its numbers, those of [`parameters`](Self::parameters), to change; `None` for an arm or a link that it has not.
+    pub fn number(&mut self, kind: ParameterKind, arm: usize, link: usize) -> Option<&mut f64> {
+        use ParameterKind as Kind;
+        let of_arm = self.arms.get_mut(arm);
+        match kind {
+            Kind::BaseMass => Some(&mut self.base.mass),
+            Kind::BaseInertia => Some(&mut self.base.inertia),
+            Kind::MountX => of_arm.map(|arm| &mut arm.mount[0]),
+            Kind::MountY => of_arm.map(|arm| &mut arm.mount[1]),
+            Kind::MountAngle => of_arm.map(|arm| &mut arm.mount_angle),
+            _ => {
+                let link = of_arm?.links.get_mut(link)?;
+                Some(match kind {
+                    Kind::LinkLength => &mut link.length,
+                    Kind::LinkMass => &mut link.mass,
+                    Kind::LinkInertia => &mut link.inertia,
+                    Kind::LinkComX => &mut link.com[0],
+                    _ => &mut link.com[1],
+                })
+            }
+        }
+    }
+
     /// The links on the long side of the largest gap between the lengths of all, indices of arm and link, and the longest of
     /// the others, m; `None` where these are not most of those with a length.
     #[must_use]

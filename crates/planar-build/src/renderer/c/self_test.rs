@@ -70,6 +70,7 @@ pub fn self_test(graph: &Graph, states: &[ReferenceState]) -> Value {
     let functions: Vec<Value> = functions.collect();
     let longest = functions.iter().filter_map(|function| function["length"].as_u64()).max();
     json!({
+        "parameters": states.iter().map(|state| numbers(&state.parameters)).collect::<Vec<_>>(),
         "inputs": inputs.collect::<Vec<_>>(),
         "functions": functions,
         "impact": impact(),
@@ -128,7 +129,7 @@ mod tests {
         let inputs = vec![Given { name: "q".to_owned(), values: vec![factor, -0.5] }];
         // in another order than the graph has them
         let expected = vec![result("b", &[7.5], &[40.0]), result("a", &[0.25, -3.0], &[2.0, 16.0])];
-        ReferenceState { inputs, expected }
+        ReferenceState { parameters: vec![3.0 * factor], inputs, expected, double_alone: None }
     }
 
     /// What the module in C compares with: the values, and the errors that a proof allows, neither more nor less.
@@ -144,6 +145,7 @@ mod tests {
         for (i, factor) in factors.into_iter().enumerate() {
             let times = |list: &[f64]| list.iter().map(|number| factor * number).collect::<Vec<_>>();
             let state = &function["states"][i];
+            assert_eq!(numbers(&test["parameters"][i]), [3.0 * factor]);
             assert_eq!(numbers(&test["inputs"][0]["values"][i]), [factor, -0.5]);
             assert_eq!(numbers(&state["values"]), times(&[0.25, -3.0, 7.5]), "in the order of the graph");
             assert_eq!(numbers(&state["sizes"]), times(&[2.0, 16.0, 40.0]));
