@@ -6,7 +6,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// The rounding unit, relative to a number: far above that of a double, so that only this shows, and so small that results
 /// move in proportion to it.
-pub const UNIT: f64 = 1.0 / (1_u64 << 40) as f64;
+pub const UNIT: f64 = 4096.0 * f64::EPSILON;
 
 /// A number of a run; with the same number, other runs are off by other parts of the unit. Literals belong to none.
 #[derive(Clone, Copy, Debug)]
@@ -17,8 +17,9 @@ pub struct Perturbed {
 
 impl Perturbed {
     /// A number that is off itself, as an input is that has to be rounded.
+    #[allow(clippy::cast_precision_loss, reason = "53 bits fit")]
     pub fn new(value: f64, run: u64) -> Self {
-        let part = (mixed(value.to_bits() ^ mixed(run)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0;
+        let part = (mixed(value.to_bits() ^ mixed(run)) >> 11) as f64 * f64::EPSILON - 1.0;
         Self { value: value * (1.0 + UNIT * part), run }
     }
 
@@ -64,7 +65,7 @@ impl Scalar for Perturbed {
     }
 
     fn sin_cos(self) -> (Self, Self) {
-        let (sin, cos) = self.value.sin_cos();
+        let (sin, cos) = libm::sincos(self.value);
         (self.with(self, sin), self.with(self, cos))
     }
 
@@ -73,7 +74,7 @@ impl Scalar for Perturbed {
     }
 
     fn atan2(self, x: Self) -> Self {
-        self.with(x, self.value.atan2(x.value))
+        self.with(x, libm::atan2(self.value, x.value))
     }
 
     fn minimum(self, other: Self) -> Self {
