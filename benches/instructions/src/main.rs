@@ -1,8 +1,11 @@
 //! Calls a function of the paper's robot as often as asked for: `instructions FUNCTION CALLS`.
 
+mod batches;
+
+use batches::STATES;
 use planar_build::evaluator::{self, Evaluator, GraphModel, Order};
 use planar_build::graph;
-use planar_capture::batch::{Accelerations, Batch, States, Status};
+use planar_capture::batch::Status;
 use planar_capture::control::ProportionalDerivative;
 use planar_capture::dynamics::{ForwardDynamics, Impact};
 use planar_capture::generated::dual_arm_3r::{JOINTS, Model};
@@ -71,7 +74,6 @@ fn run(function: &str, calls: u32) -> Result<(), Problem> {
             }
         }
         "runge_kutta_step" => steps(&model, calls)?,
-        "batch_of_64" => batches(&model, calls)?,
         "graph_forward_dynamics" => {
             let (graph, mut joints) = (graph_model()?, [0.0; JOINTS]);
             let state = State { base_pose: POSE, joint_angles: &ANGLES, base_twist: TWIST, joint_rates: &RATES };
@@ -95,7 +97,10 @@ fn run(function: &str, calls: u32) -> Result<(), Problem> {
             }
         }
         "graph_batch_of_64" => graph_batches(calls)?,
-        _ => eprintln!("there is no function {function}"),
+        _ => match function.strip_prefix("batch_of_64") {
+            Some(of) => batches::call(&model, of.trim_start_matches('_'), calls)?,
+            None => return Err(format!("there is no function {function}").into()),
+        },
     }
     Ok(())
 }
@@ -119,20 +124,6 @@ fn steps(model: &Model<f64>, calls: u32) -> Result<(), Problem> {
     Ok(())
 }
 
-/// Forward dynamics of 64 states at once.
-fn batches(model: &Model<f64>, calls: u32) -> Result<(), Problem> {
-    let rows = |numbers: &[f64]| numbers.iter().flat_map(|number| [*number; 64]).collect::<Vec<_>>();
-    let [poses, angles, twists, rates, torques] = [&POSE[..], &ANGLES, &TWIST, &RATES, &TORQUES].map(rows);
-    let states = States { base_poses: &poses, joint_angles: &angles, base_twists: &twists, joint_rates: &rates };
-    let (mut base, mut joints) = ([0.0; 3 * 64], [0.0; JOINTS * 64]);
-    for _ in 0..calls {
-        let mut found = Accelerations { base: &mut base, joints: &mut joints };
-        Batch::new(model).forward_dynamics(&states, &torques, &mut found, black_box(&mut [Status::Done; 64]))?;
-        black_box(&mut base);
-    }
-    Ok(())
-}
-
 /// The robot's graph, evaluated.
 fn graph_model() -> Result<GraphModel, Problem> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../codegen");
@@ -142,17 +133,16 @@ fn graph_model() -> Result<GraphModel, Problem> {
     evaluator.model(&layout).map_err(|_| "the layout has another structure".into())
 }
 
-/// As [`batches`], by the graph.
+/// Forward dynamics of a batch, by the graph.
 fn graph_batches(calls: u32) -> Result<(), Problem> {
     let model = graph_model()?;
-    let rows = |numbers: &[f64]| numbers.iter().flat_map(|number| [*number; 64]).collect::<Vec<_>>();
-    let inputs = [&POSE[..], &ANGLES, &TWIST, &RATES, &TORQUES].map(rows);
+    let inputs = [&POSE[..], &ANGLES, &TWIST, &RATES, &TORQUES].map(batches::rows);
     let inputs = inputs.each_ref().map(Vec::as_slice);
-    let (mut base, mut joints) = ([0.0; 3 * 64], [0.0; JOINTS * 64]);
+    let (mut base, mut joints) = ([0.0; 3 * STATES], [0.0; JOINTS * STATES]);
     for _ in 0..calls {
         let mut outputs = [Some(&mut base[..]), Some(&mut joints[..]), None];
         let batch = evaluator::Batch::of(&model).in_order(Order::Elements);
-        batch.call("forward_dynamics", black_box(&inputs), &mut outputs, &mut [Status::Done; 64])?;
+        batch.call("forward_dynamics", black_box(&inputs), &mut outputs, &mut [Status::Done; STATES])?;
         black_box(&mut base);
     }
     Ok(())
