@@ -30,8 +30,9 @@ pub struct Reference {
     pub roundings: Vec<f64>,
 }
 
-/// The results of a robot, whose parameters are given, too, at a state, in the order of the table of quantities; `has_impact_results` adds those of
-/// [`impact_results`]. Numbers of the state have four digits, so that they can be read; every machine makes the same.
+/// The results of a robot at a state, in the order of the table of quantities; the robot's parameters are given, too, and
+/// `has_impact_results` adds the results of [`impact_results`]. Numbers of the state have four digits, so that they can be
+/// read; every machine makes the same.
 ///
 /// # Errors
 /// A state that the generic implementation has no answer for.
