@@ -278,6 +278,27 @@ fn a_changed_sign_fails_the_modules_own_test() {
     assert!(tried > 400, "{tried} signs");
 }
 
+/// PD control that takes one of its arguments for another, or leaves one out.
+#[test]
+fn a_changed_control_law_fails_the_modules_own_test() {
+    if without("cc") {
+        return;
+    }
+    let modules = Modules::new("dual_arm_3r");
+    let text = modules.source();
+    for (right, wrong) in [
+        ("proportional_gain[i] * (desired_joint_angles[i] - ", "desired_joint_angles[i] * (proportional_gain[i] - "),
+        ("real rate = derivative_gain[i]", "real rate = derivative_gain[0]"),
+        ("(desired_joint_rates[i] - joint_rates[i])", "(zero - joint_rates[i])"),
+        ("joint_torques[i] = angle + rate", "joint_torques[i] = angle - rate"),
+    ] {
+        assert_eq!(text.matches(right).count(), 1, "{right}");
+        for precision in ["-UNOTHING", &modules.single()] {
+            assert!(!modules.holds(&text.replace(right, wrong), precision), "{wrong}, {precision}");
+        }
+    }
+}
+
 /// The stages of a Runge–Kutta step, of which a short step says little: what they begin from, and their weights.
 #[test]
 fn a_changed_stage_fails_the_modules_own_test() {
