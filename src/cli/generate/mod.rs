@@ -180,7 +180,8 @@ pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, Comman
         Product::Texts(modules(&graph, &layout, arguments)?)
     };
     progress.finish_and_clear();
-    if let Some(why) = double_alone {
+    // the sources of an FMU are in double precision
+    if let Some(why) = double_alone.filter(|_| !arguments.fmu) {
         note(format_args!(
             "warning: single precision does not hold this robot: {why}; modules are right in double precision, and their own \
              test in single precision fails"

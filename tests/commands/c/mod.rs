@@ -367,6 +367,18 @@ const HARMLESS: [&str; 11] = [
 /// The last coefficients of sine and cosine in single precision.
 const LAST_OF_SINGLE: [&str; 2] = ["-0.00019515295571181923", "2.44331567955669e-5"];
 
+/// A pivot that is off by half a per cent, and with it the border between regular and singular, fails the module's own test in
+/// both precisions.
+#[test]
+fn a_changed_pivot_fails_the_modules_own_test() {
+    if without("cc") {
+        return;
+    }
+    let modules = Modules::new("dual_arm_3r");
+    modules.sees(" > model->pivot_limit", " * (real)1.005 > model->pivot_limit", 7);
+    modules.sees("model->pivot_limit = (real)8.0", "model->pivot_limit = (real)8.04", 1);
+}
+
 /// Where another status is returned than the header says, or one for another, the module's own test fails.
 #[test]
 fn a_changed_status_fails_the_modules_own_test() {

@@ -25,7 +25,7 @@ use planar_layout::layout::Layout;
 use planar_layout::structure::Structure;
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng, SeedableRng};
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 macro_rules! regimes {
     ($($(#[$doc:meta])* $regime:ident $name:literal,)*) => {
@@ -189,7 +189,7 @@ impl Regime {
 
 /// A moving robot of a structure whose numbers are all others than the layout's, of like size, and of four digits, so that each
 /// parameter, force and target has a part in the results. Its bodies are about as heavy as the layout's heaviest link, and
-/// about as long as its longest.
+/// about as long as its longest. Sines and cosines of their angles, and of those between neighbours, are far from 0.
 pub(super) fn balanced(layout: &Layout, structure: &Structure) -> RegimeSample {
     let mut random = Random::new(1, Regime::OtherShape, 0);
     let links = || layout.arms.iter().flat_map(|arm| &arm.links);
@@ -215,6 +215,17 @@ pub(super) fn balanced(layout: &Layout, structure: &Structure) -> RegimeSample {
     }
     let units = Units { mass, length };
     let mut instant = Regime::Moving.instant(&layout, &units, &mut random);
+    instant.state.base_pose[0] = random.oblique(1.0);
+    let mut joint_angles = instant.state.joint_angles.iter_mut();
+    for arm in &layout.arms {
+        let (mut yaw, mut side) = (instant.state.base_pose[0] + arm.mount_angle, 1.0);
+        for angle in joint_angles.by_ref().take(arm.links.len()) {
+            side = -side;
+            let next = random.oblique(side);
+            *angle = libm::remainder(next - yaw, TAU);
+            yaw = next;
+        }
+    }
     instant.base_wrench = Some(units.wrench(random.vector(10.0)));
     instant.end_effector_wrenches = Some(layout.arms.iter().map(|_| units.wrench(random.vector(10.0))).collect());
     instant.targets = layout.arms.iter().map(|_| Some(Regime::Moving.target(&units, &mut random))).collect();
@@ -316,6 +327,12 @@ impl Random {
         self.unit() < 0.5
     }
 
+    /// An angle in one of the four quadrants, 0.2 to 0.4 rad from its middle to one side.
+    fn oblique(&mut self, side: f64) -> f64 {
+        let quadrant = libm::floor(4.0 * self.unit()) - 2.0;
+        (quadrant + 0.5) * FRAC_PI_2 + side * (0.2 + 0.2 * self.unit())
+    }
+
     /// Up to three times as large or as small.
     fn factor(&mut self) -> f64 {
         self.decades(-0.5, 0.5)
@@ -324,5 +341,41 @@ impl Random {
     /// 10 to a power between two.
     fn decades(&mut self, from: f64, to: f64) -> f64 {
         libm::pow(10.0, from + (to - from) * self.unit())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::balanced;
+    use planar_layout::layout::Layout;
+    use planar_layout::structure::Structure;
+
+    /// No term with a sine or a cosine vanishes from the results of a balanced robot.
+    #[test]
+    fn bodies_of_a_balanced_robot_are_oblique() {
+        for name in ["single_arm_2r", "dual_arm_3r", "asymmetric_wheel", "boom_7r"] {
+            let file = format!("{}/../../codegen/layouts/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+            let layout = Layout::read(file.as_ref()).expect("a layout");
+            let parameters = layout.parameters().into_iter().map(|(kind, arm, link, _)| (kind, arm, link)).collect();
+            let links = layout.arms.iter().map(|arm| arm.links.len()).collect();
+            let sample = balanced(&layout, &Structure { links, parameters, needs_distinct_mounts: false });
+            let state = &sample.instant.state;
+            let mut joint_angles = state.joint_angles.iter();
+            let mut angles = vec![state.base_pose[0]];
+            for arm in &sample.layout.arms {
+                let mut yaw = state.base_pose[0] + arm.mount_angle;
+                for (link, angle) in joint_angles.by_ref().take(arm.links.len()).enumerate() {
+                    yaw += angle;
+                    angles.push(yaw);
+                    if link > 0 {
+                        angles.push(*angle);
+                    }
+                }
+            }
+            for angle in angles {
+                let (sine, cosine) = angle.sin_cos();
+                assert!(sine.abs().min(cosine.abs()) > 0.35, "{name}: {angle}");
+            }
+        }
     }
 }

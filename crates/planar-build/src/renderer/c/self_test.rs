@@ -22,7 +22,7 @@ pub fn self_test(graph: &Graph, states: &[ReferenceState]) -> Value {
         })
     });
     let functions = graph.functions_of_families().map(|(family, function)| {
-        let stored: Vec<&Variable> = function.outputs.iter().filter(|o| o.name != PIVOT).collect();
+        let (pivot, stored): (Vec<&Variable>, Vec<&Variable>) = function.outputs.iter().partition(|o| o.name == PIVOT);
         let mut places = Vec::new();
         let mut length = 0;
         for output in &stored {
@@ -30,23 +30,27 @@ pub fn self_test(graph: &Graph, states: &[ReferenceState]) -> Value {
             length += output.elements.len();
         }
         let states = states.iter().map(|state| {
-            let expected = stored.iter().map(|output| {
-                let mut expected = state.expected.iter();
-                expected.find(|expected| expected.function == function.name && expected.output == output.name)
-            });
-            let expected: Vec<_> = expected.flatten().collect();
-            let values: Vec<f64> = expected.iter().flat_map(|expected| &expected.values).copied().collect();
-            let sizes = expected.iter().flat_map(|expected| &expected.sizes);
-            json!({
-                "values": numbers(&values),
-                "sizes": sizes.map(|size| format!("(real){size:.1e}")).collect::<Vec<_>>(),
-            })
+            let expected = |outputs: &[&Variable]| {
+                let of = |output: &&Variable| {
+                    let mut expected = state.expected.iter();
+                    expected.find(|expected| expected.function == function.name && expected.output == output.name)
+                };
+                let expected: Vec<_> = outputs.iter().filter_map(of).collect();
+                let values: Vec<f64> = expected.iter().flat_map(|expected| &expected.values).copied().collect();
+                let sizes = expected.iter().flat_map(|expected| &expected.sizes);
+                let sizes: Vec<_> = sizes.map(|size| format!("(real){size:.1e}")).collect();
+                (numbers(&values), sizes)
+            };
+            let ((values, sizes), (pivot, of_pivot)) = (expected(&stored), expected(&pivot));
+            let pivot = [pivot, of_pivot].concat();
+            json!({"values": values, "sizes": sizes, "pivot": pivot})
         });
         json!({
             "name": function.name,
             "inputs": function.inputs,
             "infinite": infinite(graph, family, function),
             // relative to itself, the one element of a matrix is always 1
+            "has_pivot": function.has_pivot(),
             "can_be_singular": function.pivot().is_some_and(|pivot| pivot.name().is_some()),
             "places": places,
             "length": length,
@@ -128,7 +132,11 @@ mod tests {
         };
         let inputs = vec![Given { name: "q".to_owned(), values: vec![factor, -0.5] }];
         // in another order than the graph has them
-        let expected = vec![result("b", &[7.5], &[40.0]), result("a", &[0.25, -3.0], &[2.0, 16.0])];
+        let expected = vec![
+            result("b", &[7.5], &[40.0]),
+            result("smallest_pivot", &[0.5], &[8.0]),
+            result("a", &[0.25, -3.0], &[2.0, 16.0]),
+        ];
         ReferenceState { parameters: vec![3.0 * factor], inputs, expected, double_alone: None }
     }
 
@@ -149,6 +157,7 @@ mod tests {
             assert_eq!(numbers(&test["inputs"][0]["values"][i]), [factor, -0.5]);
             assert_eq!(numbers(&state["values"]), times(&[0.25, -3.0, 7.5]), "in the order of the graph");
             assert_eq!(numbers(&state["sizes"]), times(&[2.0, 16.0, 40.0]));
+            assert_eq!(numbers(&state["pivot"]), times(&[0.5, 8.0]), "value and size");
         }
         assert_eq!(
             (&function["places"], &function["length"], &test["longest"]),
