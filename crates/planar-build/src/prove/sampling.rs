@@ -198,6 +198,7 @@ pub(super) fn balanced(layout: &Layout, structure: &Structure) -> RegimeSample {
     // a robot of wheels alone has none
     let length = if length > 0.0 { length } else { 1.0 };
     let mut layout = layout.clone();
+    let mut numbers = layout.parameters_mut();
     for (kind, arm, link) in &structure.parameters {
         let (size, has_sign) = match kind {
             ParameterKind::BaseMass | ParameterKind::LinkMass => (mass, false),
@@ -209,8 +210,8 @@ pub(super) fn balanced(layout: &Layout, structure: &Structure) -> RegimeSample {
         };
         let sign = if has_sign && random.coin() { -1.0 } else { 1.0 };
         let number = four_digits(sign * size * random.factor());
-        if let Some(place) = layout.number(*kind, *arm, *link) {
-            *place = number;
+        if let Some((.., place)) = numbers.iter_mut().find(|(k, a, l, _)| (k, a, l) == (kind, arm, link)) {
+            **place = number;
         }
     }
     let units = Units { mass, length };

@@ -232,45 +232,34 @@ impl Layout {
     /// The layout's numbers in the order of the canonical text, with their arms and links; 0 where there is none.
     #[must_use]
     pub fn parameters(&self) -> Vec<(ParameterKind, usize, usize, f64)> {
+        let mut layout = self.clone();
+        layout.parameters_mut().into_iter().map(|(kind, arm, link, number)| (kind, arm, link, *number)).collect()
+    }
+
+    /// As [`parameters`](Self::parameters), to change.
+    pub fn parameters_mut(&mut self) -> Vec<(ParameterKind, usize, usize, &mut f64)> {
         use ParameterKind as Kind;
-        let mut all = vec![(Kind::BaseMass, 0, 0, self.base.mass), (Kind::BaseInertia, 0, 0, self.base.inertia)];
-        for (i, arm) in self.arms.iter().enumerate() {
-            let [x, y] = arm.mount;
-            all.extend([(Kind::MountX, i, 0, x), (Kind::MountY, i, 0, y), (Kind::MountAngle, i, 0, arm.mount_angle)]);
-            for (k, link) in arm.links.iter().enumerate() {
+        let base = &mut self.base;
+        let mut all = vec![(Kind::BaseMass, 0, 0, &mut base.mass), (Kind::BaseInertia, 0, 0, &mut base.inertia)];
+        for (i, arm) in self.arms.iter_mut().enumerate() {
+            let [x, y] = &mut arm.mount;
+            all.extend([
+                (Kind::MountX, i, 0, x),
+                (Kind::MountY, i, 0, y),
+                (Kind::MountAngle, i, 0, &mut arm.mount_angle),
+            ]);
+            for (k, link) in arm.links.iter_mut().enumerate() {
+                let [x, y] = &mut link.com;
                 all.extend([
-                    (Kind::LinkLength, i, k, link.length),
-                    (Kind::LinkMass, i, k, link.mass),
-                    (Kind::LinkInertia, i, k, link.inertia),
-                    (Kind::LinkComX, i, k, link.com[0]),
-                    (Kind::LinkComY, i, k, link.com[1]),
+                    (Kind::LinkLength, i, k, &mut link.length),
+                    (Kind::LinkMass, i, k, &mut link.mass),
+                    (Kind::LinkInertia, i, k, &mut link.inertia),
+                    (Kind::LinkComX, i, k, x),
+                    (Kind::LinkComY, i, k, y),
                 ]);
             }
         }
         all
-    }
-
-    /// One of its numbers, those of [`parameters`](Self::parameters), to change; `None` for an arm or a link that it has not.
-    pub fn number(&mut self, kind: ParameterKind, arm: usize, link: usize) -> Option<&mut f64> {
-        use ParameterKind as Kind;
-        let of_arm = self.arms.get_mut(arm);
-        match kind {
-            Kind::BaseMass => Some(&mut self.base.mass),
-            Kind::BaseInertia => Some(&mut self.base.inertia),
-            Kind::MountX => of_arm.map(|arm| &mut arm.mount[0]),
-            Kind::MountY => of_arm.map(|arm| &mut arm.mount[1]),
-            Kind::MountAngle => of_arm.map(|arm| &mut arm.mount_angle),
-            _ => {
-                let link = of_arm?.links.get_mut(link)?;
-                Some(match kind {
-                    Kind::LinkLength => &mut link.length,
-                    Kind::LinkMass => &mut link.mass,
-                    Kind::LinkInertia => &mut link.inertia,
-                    Kind::LinkComX => &mut link.com[0],
-                    _ => &mut link.com[1],
-                })
-            }
-        }
     }
 
     /// The links on the long side of the largest gap between the lengths of all, indices of arm and link, and the longest of
