@@ -359,7 +359,8 @@ LTO, C with `-O2 -ffp-contract=off`.
   the most of 900 states with angles up to 1,000 rad; *jitter* is the difference to the least of these. Every finite
   angle is valid; with *far* angles, up to the largest finite number, sines are reduced in integers, which takes longer:
   the most of 100 such states. Where the sum of yaw and joint angles of a link is beyond the largest number, it counts
-  as that number. PD control, whose torques would be infinite at most of these, then ends before the step.
+  as that number. PD control, whose torques would be infinite at most of these, then ends before the step: its count
+  may then be less than with other angles.
 - **What is built.** Programs for the M4F are built for the target's default processor, those for the M7 with
   `-C target-cpu=cortex-m7`. With `-C target-cpu=cortex-m4` the compiler replaces each `VMLA`, of three cycles there,
   by a product and a sum of one cycle each: up to a quarter more instructions, and stack for the products (by the
@@ -379,8 +380,8 @@ LTO, C with `-O2 -ffp-contract=off`.
   none in its code."""
 
 OVER = "**Bold** numbers are over their budgets. They may not grow: `examples/firmware/bounds.json`."
-WITHIN = """Budgets are those of library and module for the paper's robot at opt-level 3; C, other layouts and other
-profiles are shown without. All numbers are within their budgets; one that is over fails the gate:
+WITHIN = """Budgets are those of library and module for the paper's robot at opt-level 3, and their numbers are within them; one
+that is over fails the gate. C, other layouts and other profiles have none; C exceeds some of these:
 `examples/firmware/bounds.json`."""
 
 

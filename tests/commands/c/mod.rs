@@ -379,6 +379,41 @@ fn a_changed_pivot_fails_the_modules_own_test() {
     modules.sees("model->pivot_limit = (real)8.0", "model->pivot_limit = (real)8.04", 1);
 }
 
+/// An arm that takes another's target for its own, or takes it only where it has both mass and moment of inertia.
+#[test]
+fn a_changed_merging_fails_the_modules_own_test() {
+    if without("cc") {
+        return;
+    }
+    let modules = Modules::new("dual_arm_3r");
+    for (right, wrong) in [
+        ("if ((target_masses[0] != zero) ||", "if ((target_masses[1] != zero) ||"),
+        ("(target_masses[1] != zero) ||", "(target_masses[1] != zero) &&"),
+        ("|| (target_inertias[1] != zero)", "|| (target_inertias[0] != zero)"),
+    ] {
+        modules.sees(right, wrong, 1);
+    }
+}
+
+/// What bounds, limits and sums of angles beyond the largest number are made of.
+#[test]
+fn a_changed_number_of_the_arithmetic_fails_the_modules_own_test() {
+    if without("cc") {
+        return;
+    }
+    let modules = Modules::new("single_arm_2r");
+    modules.sees("result = -REAL_MAX", "result = REAL_MAX", 1);
+    let (text, single) = (modules.source(), modules.single());
+    for (right, wrong, precision) in [
+        ("REAL_EPSILON DBL_EPSILON", "REAL_EPSILON FLT_EPSILON", "-UNOTHING"),
+        ("REAL_EPSILON FLT_EPSILON", "REAL_EPSILON (2.0F * FLT_EPSILON)", &single),
+        ("REAL_MAX DBL_MAX", "REAL_MAX (0.5 * DBL_MAX)", "-UNOTHING"),
+    ] {
+        assert_eq!(text.matches(right).count(), 1);
+        assert!(!modules.holds(&text.replace(right, wrong), precision), "{wrong}");
+    }
+}
+
 /// Where another status is returned than the header says, or one for another, the module's own test fails.
 #[test]
 fn a_changed_status_fails_the_modules_own_test() {
