@@ -380,8 +380,8 @@ LTO, C with `-O2 -ffp-contract=off`.
   none in its code."""
 
 OVER = "**Bold** numbers are over their budgets. They may not grow: `examples/firmware/bounds.json`."
-WITHIN = """Budgets are those of library and module for the paper's robot at opt-level 3, and their numbers are within them; one
-that is over fails the gate. C, other layouts and other profiles have none; C exceeds some of these:
+WITHIN = """Budgets are those of library and module for the paper's robot at opt-level 3, and their numbers are
+within them: one that is over fails the gate. C, other layouts and other profiles have none; C exceeds some of these:
 `examples/firmware/bounds.json`."""
 
 
