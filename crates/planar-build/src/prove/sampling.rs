@@ -227,8 +227,10 @@ pub(super) fn balanced(layout: &Layout, structure: &Structure) -> RegimeSample {
             yaw = next;
         }
     }
-    instant.base_wrench = Some(units.wrench(random.vector(10.0)));
-    instant.end_effector_wrenches = Some(layout.arms.iter().map(|_| units.wrench(random.vector(10.0))).collect());
+    // of the size of what the motion takes
+    instant.joint_torques.iter_mut().for_each(|torque| *torque *= 0.1);
+    instant.base_wrench = Some(units.wrench(random.vector(1.0)));
+    instant.end_effector_wrenches = Some(layout.arms.iter().map(|_| units.wrench(random.vector(1.0))).collect());
     instant.targets = layout.arms.iter().map(|_| Some(Regime::Moving.target(&units, &mut random))).collect();
     RegimeSample { layout, instant }
 }

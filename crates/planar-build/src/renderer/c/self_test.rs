@@ -49,8 +49,8 @@ pub fn self_test(graph: &Graph, states: &[ReferenceState]) -> Value {
             "name": function.name,
             "inputs": function.inputs,
             "infinite": infinite(graph, family, function),
-            // relative to itself, the one element of a matrix is always 1
             "has_pivot": function.has_pivot(),
+            // relative to itself, the one element of a matrix is always 1
             "can_be_singular": function.pivot().is_some_and(|pivot| pivot.name().is_some()),
             "places": places,
             "length": length,
