@@ -153,14 +153,16 @@ impl Modules {
     }
 
     /// The module's own test fails in both precisions wherever a text of its source, which is there so often, is another.
-    fn sees(&self, right: &str, wrong: &str, count: usize) {
+    fn sees<const N: usize>(&self, count: usize, edits: [(&str, &str); N]) {
         let text = self.source();
-        let places: Vec<usize> = text.match_indices(right).map(|(place, _)| place).collect();
-        assert_eq!(places.len(), count, "{right}");
-        for place in places {
-            let changed = format!("{}{wrong}{}", &text[..place], &text[place + right.len()..]);
-            for precision in ["-UNOTHING", &self.single()] {
-                assert!(!self.holds(&changed, precision), "{wrong}, {precision}");
+        for (right, wrong) in edits {
+            let places: Vec<usize> = text.match_indices(right).map(|(place, _)| place).collect();
+            assert_eq!(places.len(), count, "{right}");
+            for place in places {
+                let changed = format!("{}{wrong}{}", &text[..place], &text[place + right.len()..]);
+                for precision in ["-UNOTHING", &self.single()] {
+                    assert!(!self.holds(&changed, precision), "{wrong}, {precision}");
+                }
             }
         }
     }
@@ -297,15 +299,18 @@ fn a_changed_control_law_fails_the_modules_own_test() {
     if without("cc") {
         return;
     }
-    let modules = Modules::new("dual_arm_3r");
-    for (right, wrong) in [
-        ("proportional_gain[i] * (desired_joint_angles[i] - ", "desired_joint_angles[i] * (proportional_gain[i] - "),
-        ("real rate = derivative_gain[i]", "real rate = derivative_gain[0]"),
-        ("(desired_joint_rates[i] - joint_rates[i])", "(zero - joint_rates[i])"),
-        ("joint_torques[i] = angle + rate", "joint_torques[i] = angle - rate"),
-    ] {
-        modules.sees(right, wrong, 1);
-    }
+    Modules::new("dual_arm_3r").sees(
+        1,
+        [
+            (
+                "proportional_gain[i] * (desired_joint_angles[i] - ",
+                "desired_joint_angles[i] * (proportional_gain[i] - ",
+            ),
+            ("real rate = derivative_gain[i]", "real rate = derivative_gain[0]"),
+            ("(desired_joint_rates[i] - joint_rates[i])", "(zero - joint_rates[i])"),
+            ("joint_torques[i] = angle + rate", "joint_torques[i] = angle - rate"),
+        ],
+    );
 }
 
 /// The stages of a Runge–Kutta step, of which a short step says little: what they begin from, and their weights.
@@ -314,15 +319,15 @@ fn a_changed_stage_fails_the_modules_own_test() {
     if without("cc") {
         return;
     }
-    let modules = Modules::new("dual_arm_3r");
-    for (right, wrong) in [
-        ("position[i] = from[0][i] + (advances", "position[i] = from[0][i] - (advances"),
-        ("velocity[i] = from[1][i] + (advances", "velocity[i] = from[1][i] - (advances"),
-        ("advances[4] = {half, half,", "advances[4] = {half, step,"),
-        ("weights[4] = {(real)1.0, (real)2.0,", "weights[4] = {(real)2.0, (real)1.0,"),
-    ] {
-        modules.sees(right, wrong, 2);
-    }
+    Modules::new("dual_arm_3r").sees(
+        2,
+        [
+            ("position[i] = from[0][i] + (advances", "position[i] = from[0][i] - (advances"),
+            ("velocity[i] = from[1][i] + (advances", "velocity[i] = from[1][i] - (advances"),
+            ("advances[4] = {half, half,", "advances[4] = {half, step,"),
+            ("weights[4] = {(real)1.0, (real)2.0,", "weights[4] = {(real)2.0, (real)1.0,"),
+        ],
+    );
 }
 
 /// Lines with sums of products with 0, of which only that they are finite matters; and with series, of which one is for
@@ -375,8 +380,8 @@ fn a_changed_pivot_fails_the_modules_own_test() {
         return;
     }
     let modules = Modules::new("dual_arm_3r");
-    modules.sees(" > model->pivot_limit", " * (real)1.005 > model->pivot_limit", 7);
-    modules.sees("model->pivot_limit = (real)8.0", "model->pivot_limit = (real)8.04", 1);
+    modules.sees(7, [(" > model->pivot_limit", " * (real)1.005 > model->pivot_limit")]);
+    modules.sees(1, [("model->pivot_limit = (real)8.0", "model->pivot_limit = (real)8.04")]);
 }
 
 /// An arm that takes another's target for its own, or takes it only where it has both mass and moment of inertia.
@@ -385,14 +390,14 @@ fn a_changed_merging_fails_the_modules_own_test() {
     if without("cc") {
         return;
     }
-    let modules = Modules::new("dual_arm_3r");
-    for (right, wrong) in [
-        ("if ((target_masses[0] != zero) ||", "if ((target_masses[1] != zero) ||"),
-        ("(target_masses[1] != zero) ||", "(target_masses[1] != zero) &&"),
-        ("|| (target_inertias[1] != zero)", "|| (target_inertias[0] != zero)"),
-    ] {
-        modules.sees(right, wrong, 1);
-    }
+    Modules::new("dual_arm_3r").sees(
+        1,
+        [
+            ("if ((target_masses[0] != zero) ||", "if ((target_masses[1] != zero) ||"),
+            ("(target_masses[1] != zero) ||", "(target_masses[1] != zero) &&"),
+            ("|| (target_inertias[1] != zero)", "|| (target_inertias[0] != zero)"),
+        ],
+    );
 }
 
 /// What bounds, limits and sums of angles beyond the largest number are made of.
@@ -402,7 +407,7 @@ fn a_changed_number_of_the_arithmetic_fails_the_modules_own_test() {
         return;
     }
     let modules = Modules::new("single_arm_2r");
-    modules.sees("result = -REAL_MAX", "result = REAL_MAX", 1);
+    modules.sees(1, [("result = -REAL_MAX", "result = REAL_MAX")]);
     let (text, single) = (modules.source(), modules.single());
     for (right, wrong, precision) in [
         ("REAL_EPSILON DBL_EPSILON", "REAL_EPSILON FLT_EPSILON", "-UNOTHING"),
