@@ -10,7 +10,7 @@ use planar_capture::output::html_report::write_report;
 use planar_capture::output::run_manifest::RunManifest;
 use planar_capture::output::study_part::StudyPart;
 use planar_capture::output::summary::summary_of_parts;
-use planar_capture::output::time_series::{all_rows, columns, write_csv};
+use planar_capture::output::time_series::{Columns, all_rows, write_csv};
 use planar_capture::scenario::{Scenario, Variant};
 use pyo3::prelude::{Bound, PyResult, Python, pyclass, pymethods};
 use std::borrow::Cow;
@@ -110,16 +110,18 @@ impl Study {
     /// The phase of each row of a case, and its columns.
     fn series<'py>(&self, py: Python<'py>, case: &str) -> PyResult<(Vec<&'static str>, Vec<Column<'py>>)> {
         let (part, case) = self.case(case)?;
-        let columns = columns(&part.scenario, case);
-        let (mut phases, mut times) = (Vec::new(), Vec::new());
-        let mut values = vec![Vec::new(); columns.len()];
+        let columns = Columns::of(&part.scenario, case);
+        let (mut phases, mut times, mut values) = (Vec::new(), Vec::new(), Vec::new());
+        let mut series = vec![Vec::new(); columns.list().len()];
         for row in all_rows(&part.computed, case) {
             let row = row?;
             phases.push(row.phase);
             times.push(row.time);
-            values.iter_mut().zip(&columns).for_each(|(values, column)| values.push(column.value(&row)));
+            columns.values(&row, &mut values);
+            series.iter_mut().zip(&values).for_each(|(series, value)| series.push(*value));
         }
-        let columns = columns.into_iter().zip(values).map(|(column, values)| (column.name, column.unit, values));
+        let named = columns.list().iter().map(|column| (column.name.clone(), column.unit));
+        let columns = named.zip(series).map(|((name, unit), values)| (name, unit, values));
         let all = std::iter::once(("t".to_owned(), "s", times)).chain(columns);
         Ok((phases, all.map(|(name, unit, values)| (name, unit, values.into_pyarray(py))).collect()))
     }

@@ -4,12 +4,15 @@ use super::seconds::seconds;
 use super::terminal::note;
 use crate::capture::Observer;
 use indicatif::{ProgressBar, ProgressStyle};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// Steps between two positions of the bar.
+/// Positions of the bar in a part, where the number of its steps is known: more than it shows.
+const POSITIONS: u64 = 256;
+/// Steps between two positions where that is not known.
 const STRIDE: u64 = 16;
 const TICK: Duration = Duration::from_millis(100);
 
@@ -33,6 +36,8 @@ pub struct Progress {
     bar: ProgressBar,
     lines: Option<Lines>,
     steps: u64,
+    /// Steps between two positions of the bar.
+    stride: u64,
 }
 
 impl Progress {
@@ -40,7 +45,7 @@ impl Progress {
     pub fn new(display: Display) -> Self {
         let bar = if display.quiet { ProgressBar::hidden() } else { ProgressBar::no_length() };
         let lines = (bar.is_hidden() && !display.quiet).then(|| Lines::every(display.progress.max(TICK)));
-        Self { bar, lines, steps: 0 }
+        Self { bar, lines, steps: 0, stride: STRIDE }
     }
 
     /// Removes the bar.
@@ -63,18 +68,19 @@ impl Observer for Progress {
         }
         self.bar.enable_steady_tick(TICK);
         self.steps = 0;
+        self.stride = if steps > 0 { steps.div_ceil(POSITIONS) } else { STRIDE };
         if let Some(lines) = &self.lines {
-            lines.set(|now| *now = Position { part: part.to_owned(), steps: 0, of: steps });
+            lines.position.begin(part, steps);
         }
     }
 
     fn step(&mut self) {
         self.steps += 1;
-        if self.steps.is_multiple_of(STRIDE) {
+        if self.steps.is_multiple_of(self.stride) {
             self.bar.set_position(self.steps);
         }
         if let Some(lines) = &self.lines {
-            lines.set(|now| now.steps = self.steps);
+            lines.position.steps.store(self.steps, Ordering::Relaxed);
         }
     }
 }
@@ -82,15 +88,22 @@ impl Observer for Progress {
 /// Where a study is.
 #[derive(Default)]
 struct Position {
-    part: String,
-    steps: u64,
-    /// 0 where it is not known.
-    of: u64,
+    /// The running part, and how many steps it has: 0 where that is not known.
+    part: Mutex<(String, u64)>,
+    /// Of the running part: without a lock, which would take longer than a step.
+    steps: AtomicU64,
 }
 
 impl Position {
+    fn begin(&self, part: &str, of: u64) {
+        let mut running = self.part.lock().unwrap_or_else(PoisonError::into_inner);
+        *running = (part.to_owned(), of);
+        self.steps.store(0, Ordering::Relaxed);
+    }
+
     fn line(&self, elapsed: u64) -> String {
-        let Self { part, steps, of } = self;
+        let (part, of) = &*self.part.lock().unwrap_or_else(PoisonError::into_inner);
+        let steps = self.steps.load(Ordering::Relaxed);
         match of {
             _ if part.is_empty() => format!("before the first step: {elapsed} s"),
             0 => format!("{part}: {steps} steps, {elapsed} s"),
@@ -101,28 +114,23 @@ impl Position {
 
 /// Lines from a thread of their own: one step can take minutes.
 struct Lines {
-    position: Arc<Mutex<Position>>,
+    position: Arc<Position>,
     /// The thread ends where this is dropped.
     thread: Option<(Sender<()>, JoinHandle<()>)>,
 }
 
 impl Lines {
     fn every(interval: Duration) -> Self {
-        let position = Arc::<Mutex<Position>>::default();
+        let position = Arc::<Position>::default();
         let (sender, receiver) = mpsc::channel();
         let begin = Instant::now();
         let shared = Arc::clone(&position);
         let thread = thread::spawn(move || {
             while receiver.recv_timeout(interval) == Err(RecvTimeoutError::Timeout) {
-                let now = shared.lock().unwrap_or_else(PoisonError::into_inner);
-                note(now.line(begin.elapsed().as_secs()));
+                note(shared.line(begin.elapsed().as_secs()));
             }
         });
         Self { position, thread: Some((sender, thread)) }
-    }
-
-    fn set(&self, change: impl FnOnce(&mut Position)) {
-        change(&mut self.position.lock().unwrap_or_else(PoisonError::into_inner));
     }
 }
 

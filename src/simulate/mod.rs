@@ -281,13 +281,13 @@ pub fn simulate(
     let mut stepper = Stepper::new(system, control, timing, &x).map_err(at(0.0))?;
     let ends_at_start = events.end_at_start();
     let mut locator = EventLocator::new(system, events);
-    let mut recorder = Recorder::new(system, stepper.moving()).map_err(at(0.0))?;
     let (steps, stride) = (timing.steps(), timing.stride());
+    let samples = usize::try_from(steps / stride).unwrap_or(usize::MAX).saturating_add(2);
+    let mut recorder = Recorder::new(system, stepper.moving(), samples).map_err(at(0.0))?;
     let is_held = stepper.control().held_steps().is_some();
     let time_of = |step: u64| timing.time_of(step, is_held);
     let Properties { path_divisions: divisions, is_adaptive, .. } = timing.integration.integrator.properties();
-    let mut subdivision = Subdivision::new(system, divisions);
-    let mut before = x.clone();
+    let mut subdivision = Subdivision::new(system, divisions, (0.0, &x));
     recorder.record_path(0.0, &x).map_err(at(0.0))?;
     if ends_at_start {
         stepper.begin_step(0.0, &x).map_err(at(0.0))?;
@@ -303,10 +303,9 @@ pub fn simulate(
         let mut from = time;
         while from < end {
             locator.begin([from, end], &x, &mut stepper).map_err(at(from))?;
-            before.copy_from_slice(&x);
             let part @ [_, to] = [from, stepper.advance(span, from, &mut x).map_err(at(from))?];
             let mut within = |t: f64, into: &mut Vec<f64>| stepper.within([from, t], into);
-            subdivision.divide(part, &before, &x, &mut within).map_err(at(from))?;
+            subdivision.divide(part, &x, &mut within).map_err(at(from))?;
             let event = locator.find(part, &x, &subdivision, &mut stepper).map_err(at(from))?;
             let until = event.map_or(to, |(_, when)| when);
             for (knot, x) in subdivision.ends().filter(|(knot, _)| *knot < until) {

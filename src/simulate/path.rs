@@ -224,9 +224,14 @@ impl Cubic {
     /// The coordinate and its rate.
     #[inline]
     fn at(&self, u: f64, length: f64) -> [f64; 2] {
+        let Self { first, second, third, .. } = self;
+        [self.position(u), (first + u * (2.0 * second + u * 3.0 * third)) / length]
+    }
+
+    #[inline]
+    fn position(&self, u: f64) -> f64 {
         let Self { start, first, second, third } = self;
-        let position = start + u * (first + u * (second + u * third));
-        [position, (first + u * (2.0 * second + u * 3.0 * third)) / length]
+        start + u * (first + u * (second + u * third))
     }
 }
 
@@ -254,6 +259,19 @@ fn fill(
     }
 }
 
+/// Whether the coordinates over the part u of an interval of a length, s, from these and their rates at its ends are those of a
+/// state, which begins with them. All are looked at, several at once.
+#[multiversion(targets("x86_64+avx2"))]
+fn are_near([u, length]: [f64; 2], (x, v): (&[f64], &[f64]), (y, w): (&[f64], &[f64]), state: &[f64]) -> bool {
+    let ends = x.iter().zip(v).zip(y.iter().zip(w));
+    let mut are_near = true;
+    for (((x, v), (y, w)), value) in ends.zip(state) {
+        let found = Cubic::new(length, [[*x, *v], [*y, *w]]).position(u);
+        are_near &= (found - value).abs() <= TOLERANCE * value.abs().max(1.0);
+    }
+    are_near
+}
+
 /// Widens bounds of the magnitudes of rates, less those of a reference, and of their derivatives, to those over an interval:
 /// the control points of the interpolant's derivatives in Bernstein form.
 #[multiversion(targets("x86_64+avx2"))]
@@ -273,16 +291,6 @@ fn widen(
         *rate = rate.max(v.abs().max(w.abs()).max((0.5 * (v + w) + bend).abs()));
         *acceleration = acceleration.max((half + bend).abs().max((half - bend).abs()) * 2.0 / length);
     }
-}
-
-/// Whether positions are those of a state, which begins with them. All are looked at, several at once.
-#[multiversion(targets("x86_64+avx2"))]
-fn are_near(positions: &[f64], state: &[f64]) -> bool {
-    let mut are_near = true;
-    for (found, value) in positions.iter().zip(state) {
-        are_near &= (found - value).abs() <= TOLERANCE * value.abs().max(1.0);
-    }
-    are_near
 }
 
 impl PathPart for PathInterval<'_> {
@@ -314,15 +322,12 @@ pub(crate) struct PathRecorder {
     times: Vec<f64>,
     /// The states at these times, one after the other.
     states: Vec<f64>,
-    /// Positions and rates of the interpolant.
-    found: [Vec<f64>; 2],
 }
 
 impl PathRecorder {
     /// For states whose positions and rates are `2 * size` numbers.
     pub(crate) fn new(size: usize) -> Self {
-        let found = [vec![0.0; size], vec![0.0; size]];
-        Self { path: Path { size, ..Path::default() }, times: Vec::new(), states: Vec::new(), found }
+        Self { path: Path { size, ..Path::default() }, times: Vec::new(), states: Vec::new() }
     }
 
     /// Adds a state: positions, then rates.
@@ -348,15 +353,18 @@ impl PathRecorder {
     }
 
     /// Whether the interpolant from the last knot to this state passes through the states between them.
-    fn is_reproduced(&mut self, time: f64, state: &[f64]) -> bool {
-        let Self { path, times, states, found: [positions, rates] } = self;
+    fn is_reproduced(&self, time: f64, state: &[f64]) -> bool {
+        let Self { path, times, states } = self;
         let middle = times.len() / 2;
         let (Some(at), Some((start, knot))) = (times.get(middle), path.last()) else { return true };
         let size = path.size;
-        let span = [start, time];
-        let interval = PathInterval { span, start: knot.split_at(size).into(), end: state.split_at(size).into() };
-        interval.at(*at, positions, rates);
-        are_near(positions, &states[2 * size * middle..])
+        let length = time - start;
+        are_near(
+            [(at - start) / length, length],
+            knot.split_at(size),
+            state.split_at(size),
+            &states[2 * size * middle..],
+        )
     }
 
     /// The path up to the last state.

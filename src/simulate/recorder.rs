@@ -36,14 +36,14 @@ pub(crate) struct Recorder<'a> {
 }
 
 impl<'a> Recorder<'a> {
-    /// For a phase that starts at `x`, in the frame that is integrated in.
-    pub(crate) fn new(system: &'a System<'a>, x: &[f64]) -> Result<Self, Error> {
+    /// For a phase of so many samples that starts at `x`, in the frame that is integrated in.
+    pub(crate) fn new(system: &'a System<'a>, x: &[f64], samples: usize) -> Result<Self, Error> {
         let start = State::from_vector(x, system.model.joints())?;
         Ok(Self {
             system,
             audit: ConservationAudit::new(system.model, &start, &system.bodies_at(x)?)?,
             torques: vec![0.0; system.model.joints()],
-            samples: SampleList::default(),
+            samples: SampleList::expecting(samples),
             saturation: Saturation::default(),
             saturated: Vec::new(),
             base_saturated: false,

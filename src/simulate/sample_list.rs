@@ -25,6 +25,9 @@ use crate::simulate::sample_file::{SampleFile, SampleWriter};
 /// The largest number of samples of a phase in memory, up to a contact or its end. Figures and the report show these.
 pub const MOST_IN_MEMORY: usize = 10_000;
 
+/// Most samples for which memory is taken before they come: an event may end the phase.
+const MOST_EXPECTED: usize = 1 << 10;
+
 /// The samples so far.
 #[derive(Debug, Default)]
 pub(crate) struct SampleList {
@@ -40,6 +43,11 @@ pub(crate) struct SampleList {
 }
 
 impl SampleList {
+    /// Of a phase that takes so many, if no event ends it.
+    pub(crate) fn expecting(count: usize) -> Self {
+        Self { in_memory: Vec::with_capacity(count.min(MOST_EXPECTED)), ..Self::default() }
+    }
+
     /// Adds a sample.
     pub(crate) fn push(&mut self, sample: Sample) {
         if let Some(before) = self.latest.replace(sample) {

@@ -22,70 +22,57 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// The states within the last part of a step, and what is needed to divide the next one.
 pub(crate) struct Subdivision {
-    /// Times and states at the ends of its intervals, the first one at the start of the part.
+    /// Times and states at the ends of its intervals, the first one at the start of the part; before the first part, its start.
     knots: Vec<(f64, Vec<f64>)>,
-    /// Metres per unit of each position.
-    weights: Vec<f64>,
     /// Most bisections of an interval; 0 where the interpolant is not compared.
     divisions: u32,
+    comparison: Comparison,
     /// Memory of [`bisect`](Self::bisect).
     rights: Vec<(f64, Vec<f64>)>,
     /// The ends of the last parts; nothing where the interpolant is not compared.
     continued: ContinuedMotion,
     /// Memory of knots that are gone.
     spare: Vec<Vec<f64>>,
-    found: [Vec<f64>; 2],
 }
 
 impl Subdivision {
-    pub(crate) fn new(system: &System<'_>, divisions: u32) -> Self {
-        let joints = system.model.joints();
-        let mut weights = vec![system.reach; 3 + joints + 3 * system.bodies.len()];
-        for (i, weight) in weights.iter_mut().enumerate() {
-            let of_body = if i < 3 { i } else { i.saturating_sub(3 + joints) % 3 };
-            if of_body > 0 {
-                *weight = 1.0;
-            }
-        }
-        let found = [vec![0.0; weights.len()], vec![0.0; weights.len()]];
+    /// Of a motion that starts at this state.
+    pub(crate) fn new(system: &System<'_>, divisions: u32, (time, start): (f64, &[f64])) -> Self {
         Self {
-            knots: Vec::new(),
-            weights,
+            knots: vec![(time, start.to_vec())],
             divisions,
+            comparison: Comparison::new(system),
             rights: Vec::new(),
             continued: ContinuedMotion::default(),
             spare: Vec::new(),
-            found,
         }
     }
 
-    /// Divides the part of a step from `start` to `end`, integrated vectors at the times of `span`.
-    pub(crate) fn divide(
-        &mut self,
-        span: [f64; 2],
-        start: &[f64],
-        end: &[f64],
-        state_at: &mut StateAt<'_>,
-    ) -> Result<(), Error> {
-        let before = self.knots.len().checked_sub(2).map(|i| self.knots.swap_remove(i));
-        self.spare.extend(self.knots.drain(..).map(|(_, state)| state));
+    /// Divides the part of a step over the times of `span`, which starts where the one before it ended and ends at this integrated
+    /// vector.
+    pub(crate) fn divide(&mut self, span: [f64; 2], end: &[f64], state_at: &mut StateAt<'_>) -> Result<(), Error> {
+        let Self { knots, divisions, comparison, continued, spare, .. } = self;
+        let before = knots.len().checked_sub(2).map(|i| knots.swap_remove(i));
+        spare.extend(knots.drain(..knots.len() - 1).map(|(_, state)| state));
+        let (time, start) = &mut knots[0];
+        *time = span[0];
         let is_reproduced = match &before {
             // where the interpolant over this part and one before it is the motion, that over this part alone is
-            Some((time, state)) if self.divisions > 0 && span[0] - time >= 0.5 * (span[1] - span[0]) => {
-                self.is_reproduced([*time, span[1]], [state, end], (span[0], start))?
+            Some((time, state)) if *divisions > 0 && span[0] - time >= 0.5 * (span[1] - span[0]) => {
+                comparison.is_reproduced([*time, span[1]], [state, end], (span[0], start))?
             }
             _ => false,
         };
-        self.spare.extend(before.map(|(_, state)| state));
-        self.push(span[0], start);
-        if self.divisions > 0 {
-            self.continued.push(span, [start, end].map(path_state));
+        if *divisions > 0 {
+            continued.push(span, [start, end].map(path_state));
         }
-        if self.divisions == 0 || is_reproduced {
-            self.push(span[1], end);
+        spare.extend(before.map(|(_, state)| state));
+        if *divisions == 0 || is_reproduced {
+            let end = self.copy(end);
+            self.knots.push((span[1], end));
             return Ok(());
         }
-        if !self.is_continued(span, start)? {
+        if !self.is_continued(span)? {
             return self.bisect(span, end, state_at);
         }
         let continued = std::mem::take(&mut self.continued);
@@ -99,21 +86,16 @@ impl Subdivision {
         divided
     }
 
-    /// Whether the ends of the parts before show the motion within this one, from `start`.
-    fn is_continued(&mut self, [from, to]: [f64; 2], start: &[f64]) -> Result<bool, Error> {
-        let [positions, rates] = &mut self.found;
+    /// Whether the ends of the parts before show the motion within this one, from the first knot.
+    fn is_continued(&mut self, [from, to]: [f64; 2]) -> Result<bool, Error> {
+        let [positions, rates] = &mut self.comparison.found;
         let Some(share) = self.continued.start_by_others([positions, rates]) else { return Ok(false) };
-        let start = split(start)?;
-        let is_continued = self.is_found(to - from, [start.positions, start.rates], MARGIN * share);
+        let start = split(&self.knots[0].1)?;
+        let is_continued = self.comparison.is_found(to - from, [start.positions, start.rates], MARGIN * share);
         if is_continued {
             self.continued.follow();
         }
         Ok(is_continued)
-    }
-
-    fn push(&mut self, time: f64, state: &[f64]) {
-        let own = self.copy(state);
-        self.knots.push((time, own));
     }
 
     /// A copy in memory of knots that are gone.
@@ -167,11 +149,34 @@ impl Subdivision {
     ) -> Result<Option<Vec<f64>>, Error> {
         let mut between = self.spare.pop().unwrap_or_default();
         state_at(middle, &mut between)?;
-        if self.is_reproduced([*from, *to], [start, end], (middle, &between))? {
+        if self.comparison.is_reproduced([*from, *to], [start, end], (middle, &between))? {
             self.spare.push(between);
             return Ok(None);
         }
         Ok(Some(between))
+    }
+}
+
+/// Compares states with the interpolant.
+struct Comparison {
+    /// Metres per unit of each position.
+    weights: Vec<f64>,
+    /// Positions and rates of the interpolant.
+    found: [Vec<f64>; 2],
+}
+
+impl Comparison {
+    fn new(system: &System<'_>) -> Self {
+        let joints = system.model.joints();
+        let mut weights = vec![system.reach; 3 + joints + 3 * system.bodies.len()];
+        for (i, weight) in weights.iter_mut().enumerate() {
+            let of_body = if i < 3 { i } else { i.saturating_sub(3 + joints) % 3 };
+            if of_body > 0 {
+                *weight = 1.0;
+            }
+        }
+        let found = [vec![0.0; weights.len()], vec![0.0; weights.len()]];
+        Self { weights, found }
     }
 
     /// Whether the interpolant between two states passes through one between them.

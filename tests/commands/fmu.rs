@@ -6,7 +6,7 @@ use planar_capture::build::graph;
 use planar_capture::capture::Silent;
 use planar_capture::fmu::{Fmu, Origin};
 use planar_capture::layout::Layout;
-use planar_capture::output::time_series::columns;
+use planar_capture::output::time_series::Columns;
 use planar_capture::registry::{SHIPPED, generated};
 use planar_capture::scenario::Scenario;
 use planar_proof::file;
@@ -133,7 +133,7 @@ fn units_are_those_of_the_time_series() {
     let model = generated(&scenario.layout).expect("generated code");
     let study = planar_capture::capture::study(&scenario, &|| model.clone_box(), 1.0, &mut Silent).expect("a study");
     let mut both = 0;
-    for column in columns(&scenario, &study.cases[0]) {
+    for column in Columns::of(&scenario, &study.cases[0]).list() {
         let Some(unit) = found.remove(&column.name) else {
             assert_eq!(column.name, "joint_work", "a column that an FMU has not");
             continue;

@@ -181,7 +181,7 @@ mod mcap_files {
     use planar_capture::capture::{CaseResult, LaterImpact, Study};
     use planar_capture::outline::Outline;
     use planar_capture::output::mcap::write_mcap;
-    use planar_capture::output::time_series::columns;
+    use planar_capture::output::time_series::Columns;
     use planar_capture::scenario::Scenario;
     use planar_proof::{assert_close, tolerance};
     use prost::Message;
@@ -267,8 +267,8 @@ mod mcap_files {
             write_mcap(&scenario, &study, &study.cases[0], &manifest(&scenario), to)
         });
         let (headings, rows) = csv(&scenario, &study, &study.cases[0]);
-        let columns = columns(&scenario, &study.cases[0]);
-        let topics: BTreeSet<String> = columns.iter().map(|column| format!("/{}", column.group)).collect();
+        let columns = Columns::of(&scenario, &study.cases[0]);
+        let topics: BTreeSet<String> = columns.list().iter().map(|column| format!("/{}", column.group)).collect();
         assert_eq!(Vec::from_iter(&topics), ["/energy", "/momentum", "/state", "/targets", "/tips"]);
         for (i, row) in rows.iter().enumerate() {
             let mut found = BTreeMap::new();

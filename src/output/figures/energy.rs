@@ -13,7 +13,7 @@ pub(super) fn figure(study: &Study, case: &CaseResult) -> Figure {
     let mut points: [Vec<(f64, f64)>; 2] = Default::default();
     for (i, row) in rows(study, case).enumerate() {
         let earlier_work = if i < approach.len() { 0.0 } else { approach[approach.len() - 1].work.total() };
-        let energy = row.total_momentum().kinetic_energy;
+        let energy = row.total_momentum.kinetic_energy;
         points[0].push((row.time, energy));
         points[1].push((row.time, energy - earlier_work - row.sample.work.total()));
     }

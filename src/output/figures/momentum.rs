@@ -27,7 +27,7 @@ fn is_flat(values: impl Iterator<Item = f64>, span: f64) -> bool {
 pub(super) fn figure(scenario: &Scenario, study: &Study, case: &CaseResult) -> Figure {
     let momentum: Vec<(f64, [f64; 3])> = rows(study, case)
         .map(|row| {
-            let total = row.total_momentum();
+            let total = row.total_momentum;
             let [px, py] = total.linear_momentum;
             (row.time, [total.angular_momentum, px, py])
         })
@@ -55,7 +55,7 @@ pub(super) fn figure(scenario: &Scenario, study: &Study, case: &CaseResult) -> F
     let linear = [("px", 1, Colour::BLACK, Dash::Solid), ("py", 2, Colour::BLACK, Dash::Dashed)];
     let angular = [("l", 0, Colour::BLACK, Dash::Solid)];
     // a part of the momentum if all kinetic energy were in one motion
-    let energy = rows(study, case).fold(0.0, |most: f64, row| most.max(row.total_momentum().kinetic_energy));
+    let energy = rows(study, case).fold(0.0, |most: f64, row| most.max(row.total_momentum.kinetic_energy));
     let span = |inertia: f64| MINIMUM_SPAN * (2.0 * energy * inertia).sqrt();
     Figure::column(
         &format!("momentum_{}", case.name),

@@ -44,7 +44,7 @@ mod transforms;
 use crate::capture::{CaseResult, Study};
 use crate::output::run_manifest::RunManifest;
 use crate::output::scene::visuals;
-use crate::output::time_series::{Column, TimeSeriesRow, all_rows, columns, provenance};
+use crate::output::time_series::{Columns, TimeSeriesRow, all_rows, provenance};
 use crate::scenario::Scenario;
 use foxglove::messages::{Log, log::Level};
 use impacts::ImpactChannels;
@@ -73,11 +73,12 @@ pub fn write_mcap(
         recording.log(&outline, 0.0, &point_cloud::outline(visual))?;
     }
     let (log, tf) = (recording.channel("/log")?, recording.channel("/tf")?);
-    let groups = column_groups(&mut recording, scenario, case)?;
+    let columns = Columns::of(scenario, case);
+    let groups = column_groups(&mut recording, &columns)?;
     let arms = &scenario.layout.arms;
     let impacts = case.capture.as_ref().map(|_| ImpactChannels::new(&mut recording, arms)).transpose()?;
     let mut events = crate::output::impacts::impacts(study, case).into_iter().peekable();
-    let mut phase = "";
+    let (mut phase, mut values) = ("", Vec::new());
     for row in all_rows(study, case) {
         let row = row?;
         if row.phase != phase {
@@ -90,29 +91,27 @@ pub fn write_mcap(
             }
         }
         recording.log(&tf, row.time, &transforms::transforms(&frames, &row))?;
-        for (channel, columns) in &groups {
-            channel.log(&mut recording, row.time, columns.iter().map(|column| column.value(&row)))?;
+        columns.values(&row, &mut values);
+        for (channel, places) in &groups {
+            channel.log(&mut recording, row.time, places.iter().map(|place| values[*place]))?;
         }
     }
     recording.finish()
 }
 
-/// A channel for each group of columns.
-fn column_groups(
-    recording: &mut Recording<'_>,
-    scenario: &Scenario,
-    case: &CaseResult,
-) -> io::Result<Vec<(ScalarChannel, Vec<Column>)>> {
+/// A channel for each group of columns, with their places.
+fn column_groups(recording: &mut Recording<'_>, columns: &Columns) -> io::Result<Vec<(ScalarChannel, Vec<usize>)>> {
     let mut groups: Vec<(&str, Vec<_>)> = Vec::new();
-    for column in columns(scenario, case) {
+    for (place, column) in columns.list().iter().enumerate() {
         match groups.iter_mut().find(|(group, _)| *group == column.group) {
-            Some((_, members)) => members.push(column),
-            None => groups.push((column.group, vec![column])),
+            Some((_, members)) => members.push(place),
+            None => groups.push((column.group, vec![place])),
         }
     }
-    let channel = |(group, columns): (&str, Vec<Column>)| {
-        let fields: Vec<_> = columns.iter().map(|column| (column.name.as_str(), column.unit)).collect();
-        Ok((ScalarChannel::new(recording, group, &fields)?, columns))
+    let channel = |(group, places): (&str, Vec<usize>)| {
+        let columns = places.iter().map(|place| &columns.list()[*place]);
+        let fields: Vec<_> = columns.map(|column| (column.name.as_str(), column.unit)).collect();
+        Ok((ScalarChannel::new(recording, group, &fields)?, places))
     };
     groups.into_iter().map(channel).collect()
 }

@@ -3,7 +3,7 @@
 //! # Example
 //! ```
 //! use planar_capture::capture::{Silent, study};
-//! use planar_capture::output::time_series::{columns, rows};
+//! use planar_capture::output::time_series::{Columns, rows};
 //! use planar_capture::registry;
 //! use planar_capture::scenario::Scenario;
 //!
@@ -12,10 +12,10 @@
 //! let robot = registry::generated(&scenario.layout)?;
 //! let study = study(&scenario, &|| robot.clone_box(), 1.0, &mut Silent)?;
 //! let case = &study.cases[0];
-//! assert_eq!(columns(&scenario, case)[0].heading(), "base_yaw [rad]");
+//! assert_eq!(Columns::of(&scenario, case).list()[0].heading(), "base_yaw [rad]");
 //! // from rest, the kinetic energy is the work of the joint torques
 //! for row in rows(&study, case) {
-//!     assert!((row.total_momentum().kinetic_energy - row.sample.work.joint_work).abs() < 1e-6);
+//!     assert!((row.total_momentum.kinetic_energy - row.sample.work.joint_work).abs() < 1e-6);
 //! }
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -25,7 +25,7 @@ mod csv;
 #[cfg(feature = "parquet")]
 mod parquet;
 
-pub use columns::{Column, columns};
+pub use columns::{Column, Columns};
 pub use csv::write_csv;
 #[cfg(feature = "parquet")]
 pub use parquet::write_parquet;
@@ -53,17 +53,9 @@ pub struct TimeSeriesRow<'a> {
     /// The robot; its time counts from the start of the phase.
     pub sample: Cow<'a, Sample>,
     /// The targets, in the scenario's order.
-    pub targets: Vec<Body>,
-}
-
-impl TimeSeriesRow<'_> {
+    pub targets: Cow<'a, [Body]>,
     /// Momentum about the inertial origin and kinetic energy of robot and targets together.
-    #[must_use]
-    pub fn total_momentum(&self) -> Momentum<f64> {
-        // samples of the post-impact motion include the targets
-        let separate = if self.phase == APPROACH { &self.targets[..] } else { &[] };
-        with_bodies(self.sample.momentum, separate)
-    }
+    pub total_momentum: Momentum<f64>,
 }
 
 /// The rows of a case: the approach, then the post-impact motion. Each impact has two rows of the same time, before and
@@ -77,7 +69,7 @@ pub fn rows<'a>(study: &'a Study, case: &'a CaseResult) -> impl Iterator<Item = 
             .samples
             .iter()
             .zip(&captured.targets)
-            .map(move |(sample, targets)| after_impact(approach, Cow::Borrowed(sample), targets.clone()))
+            .map(move |(sample, targets)| after_impact(approach, Cow::Borrowed(sample), Cow::Borrowed(targets)))
     });
     before.chain(after)
 }
@@ -96,9 +88,11 @@ pub fn all_rows<'a>(study: &'a Study, case: &'a CaseResult) -> impl Iterator<Ite
         captured.post_impact.all_samples().map(move |sample| {
             Ok(match sample? {
                 PhaseSample::InMemory(i, sample) => {
-                    after_impact(approach, Cow::Borrowed(sample), captured.targets[i].clone())
+                    after_impact(approach, Cow::Borrowed(sample), Cow::Borrowed(&captured.targets[i]))
                 }
-                PhaseSample::Stored(sample, targets) => after_impact(approach, Cow::Owned(*sample), targets),
+                PhaseSample::Stored(sample, targets) => {
+                    after_impact(approach, Cow::Owned(*sample), Cow::Owned(targets))
+                }
             })
         })
     });
@@ -107,11 +101,14 @@ pub fn all_rows<'a>(study: &'a Study, case: &'a CaseResult) -> impl Iterator<Ite
 
 fn before_impact<'a>(approach: &Phase, case: &CaseResult, sample: Cow<'a, Sample>) -> TimeSeriesRow<'a> {
     let targets = case.targets_before(approach.duration - sample.time);
-    TimeSeriesRow { time: sample.time, phase: APPROACH, sample, targets }
+    let total_momentum = with_bodies(sample.momentum, &targets);
+    TimeSeriesRow { time: sample.time, phase: APPROACH, sample, targets: Cow::Owned(targets), total_momentum }
 }
 
-fn after_impact<'a>(approach: &Phase, sample: Cow<'a, Sample>, targets: Vec<Body>) -> TimeSeriesRow<'a> {
-    TimeSeriesRow { time: approach.duration + sample.time, phase: "post_impact", sample, targets }
+fn after_impact<'a>(approach: &Phase, sample: Cow<'a, Sample>, targets: Cow<'a, [Body]>) -> TimeSeriesRow<'a> {
+    // the robot's momentum is that of the targets, too
+    let total_momentum = sample.momentum;
+    TimeSeriesRow { time: approach.duration + sample.time, phase: "post_impact", sample, targets, total_momentum }
 }
 
 /// The metadata of a time series' file, as keys and values: names, version, and the manifest of the run.

@@ -1,6 +1,6 @@
 //! The time series of a case as Parquet.
 
-use super::{Column, TimeSeriesRow, all_rows, columns, provenance};
+use super::{Column, Columns, TimeSeriesRow, all_rows, provenance};
 use crate::capture::{CaseResult, Study};
 use crate::output::run_manifest::RunManifest;
 use crate::scenario::Scenario;
@@ -34,8 +34,8 @@ pub fn write_parquet(
     manifest: &RunManifest,
     to: impl Write + Send,
 ) -> io::Result<()> {
-    let columns = columns(scenario, case);
-    let schema = Arc::new(schema(&columns));
+    let columns = Columns::of(scenario, case);
+    let schema = Arc::new(schema(columns.list()));
     let origin = provenance(scenario, case, manifest);
     let origin = origin.into_iter().map(|(key, value)| KeyValue::new(key, value)).collect();
     let properties = WriterProperties::builder()
@@ -71,13 +71,17 @@ fn schema(columns: &[Column]) -> Schema {
 }
 
 /// One array per field of the [`schema`].
-fn arrays(columns: &[Column], rows: &[TimeSeriesRow<'_>]) -> Vec<ArrayRef> {
-    let numbers = |value: &dyn Fn(&TimeSeriesRow<'_>) -> f64| -> ArrayRef {
-        Arc::new(Float64Array::from_iter_values(rows.iter().map(value)))
-    };
+fn arrays(columns: &Columns, rows: &[TimeSeriesRow<'_>]) -> Vec<ArrayRef> {
+    let mut numbers = vec![Vec::with_capacity(rows.len()); columns.list().len()];
+    let mut values = Vec::new();
+    for row in rows {
+        columns.values(row, &mut values);
+        numbers.iter_mut().zip(&values).for_each(|(column, value)| column.push(*value));
+    }
+    let times = Float64Array::from_iter_values(rows.iter().map(|row| row.time));
     let phases: DictionaryArray<Int8Type> = rows.iter().map(|row| row.phase).collect();
-    let mut arrays: Vec<ArrayRef> = vec![numbers(&|row| row.time), Arc::new(phases)];
-    arrays.extend(columns.iter().map(|column| numbers(&|row| column.value(row))));
+    let mut arrays: Vec<ArrayRef> = vec![Arc::new(times), Arc::new(phases)];
+    arrays.extend(numbers.into_iter().map(|column| -> ArrayRef { Arc::new(Float64Array::from(column)) }));
     arrays
 }
 

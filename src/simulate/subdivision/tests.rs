@@ -32,16 +32,16 @@ fn divide(divisions: u32, moved: usize, motion: &Motion<'_>, times: &[f64]) -> (
     let model: Box<dyn CloneModel> = registry::generic(&layout("single_arm_2r"));
     let bodies = [Body { mass: 1.0, inertia: 1.0, pose: [0.0; 3], twist: [0.0; 3] }];
     let system = System { bodies: &bodies, reach: REACH, ..System::alone(&*model) };
-    let mut subdivision = Subdivision::new(&system, divisions);
+    let start = state(moved, motion, times[0]);
+    let mut subdivision = Subdivision::new(&system, divisions, (times[0], &start));
     let counts = times.windows(2).map(|part| {
-        let (mut count, span @ [from, to]) = (0, [part[0], part[1]]);
+        let (mut count, span @ [_, to]) = (0, [part[0], part[1]]);
         let mut state_at = |time: f64, into: &mut Vec<f64>| {
             count += 1;
             *into = state(moved, motion, time);
             Ok(())
         };
-        let ends = [from, to].map(|time| state(moved, motion, time));
-        subdivision.divide(span, &ends[0], &ends[1], &mut state_at).expect("states");
+        subdivision.divide(span, &state(moved, motion, to), &mut state_at).expect("states");
         count
     });
     let counts = counts.collect();
