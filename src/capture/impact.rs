@@ -273,7 +273,7 @@ fn balance(
 fn total(assembly: &Assembly, state: &State<'_, f64>, targets: &[Body]) -> Result<(Momentum<f64>, [f64; 2]), Error> {
     let separate = assembly.separate(targets);
     let sums = BodySums::new(bodies(&*assembly.model, state, &separate)?.into_iter());
-    Ok((with_bodies(assembly.model.momentum(state)?, &separate), sums.momentum_sizes))
+    Ok((with_bodies(assembly.model.momentum(state)?, separate.iter().copied()), sums.momentum_sizes))
 }
 
 #[cfg(test)]

@@ -59,7 +59,7 @@ impl ResidualMotion {
         wheels: &[bool],
     ) -> Result<Self, Error> {
         let bodies = bodies(model, &state.view(), held)?;
-        let total = with_bodies(model.momentum(&state.view())?, held);
+        let total = with_bodies(model.momentum(&state.view())?, held.iter().copied());
         let sums = BodySums::new(bodies.iter().copied());
         let (center, mass) = (sums.center_of_mass(), sums.mass);
         let inertia = inertia_about(&bodies, center);

@@ -107,7 +107,7 @@ pub(crate) fn inertia_about(bodies: &[Body], [x, y]: [f64; 2]) -> f64 {
 }
 
 /// A robot's momentum and energy with those of the bodies beside it.
-pub(crate) fn with_bodies(mut total: Momentum<f64>, bodies: &[Body]) -> Momentum<f64> {
+pub(crate) fn with_bodies(mut total: Momentum<f64>, bodies: impl IntoIterator<Item = Body>) -> Momentum<f64> {
     for body in bodies {
         let ([l, px, py], energy) = body.momentum();
         total.linear_momentum = [total.linear_momentum[0] + px, total.linear_momentum[1] + py];

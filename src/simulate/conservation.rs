@@ -25,7 +25,7 @@
 use crate::dynamics::{AnyModel, Momentum};
 use crate::error::Error;
 use crate::scalar::Real;
-use crate::simulate::bodies::{BodyList, BodySums};
+use crate::simulate::bodies::{BodyList, BodySums, with_bodies};
 use crate::simulate::body_tree::{BodyTree, LANES, Lanes};
 use crate::simulate::system::Body;
 use crate::state::{State, StateVector, split};
@@ -218,7 +218,8 @@ impl<'a> ConservationAudit<'a> {
     /// # Errors
     /// Those of the model.
     pub fn momentum(&mut self, state: &State<'_, f64>, beside: &[Body]) -> Result<Momentum<f64>, Error> {
-        Ok(BodySums::new(self.bodies.at(self.model, state, beside)?).momentum())
+        let none = Momentum { linear_momentum: [0.0; 2], angular_momentum: 0.0, kinetic_energy: 0.0 };
+        Ok(with_bodies(none, self.bodies.at(self.model, state, beside)?))
     }
 
     /// Adds the momentum and the energy of a state between those that are checked to the scales of the errors: in a long

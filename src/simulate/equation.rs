@@ -4,6 +4,7 @@ use crate::control::Control;
 use crate::dynamics::AnyModel;
 use crate::error::Error;
 use crate::formulation::{CanonicalVariables, ReducedCoordinates};
+use crate::integrate::RungeKutta4;
 use crate::simulate::inertial_frame::InertialFrame;
 use crate::simulate::system::System;
 use crate::state::{Coordinates, State, StateVector, coordinates_mut, split, split_mut};
@@ -170,6 +171,20 @@ impl<'a> Equation<'a> {
                 system.derivative(control.as_given(), time, x, rate, torques)
             }
         }
+    }
+
+    /// A step of this motion; the bits of the two ways are the same.
+    pub(crate) fn runge_kutta4_step(
+        &mut self,
+        integrator: &mut RungeKutta4<'_, f64>,
+        [time, end]: [f64; 2],
+        x: &mut [f64],
+    ) -> Result<(), Error> {
+        let Self { system, control, torques, form, .. } = self;
+        if matches!(form, FormulationWorkspace::Full) && system.constraints.is_empty() {
+            return integrator.robot_step(system.model, control.as_given(), time, end - time, x, torques);
+        }
+        integrator.step(time, end - time, x, |time, x, rate| self.derivative(time, x, rate))
     }
 
     /// d/dt of positions, momenta and work: `ṗ = f + ∂T/∂q`. Without bodies beside the robot f are the torques, so that

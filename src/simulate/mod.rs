@@ -283,7 +283,7 @@ pub fn simulate(
     let mut locator = EventLocator::new(system, events);
     let (steps, stride) = (timing.steps(), timing.stride());
     let samples = usize::try_from(steps / stride).unwrap_or(usize::MAX).saturating_add(2);
-    let mut recorder = Recorder::new(system, stepper.moving(), samples).map_err(at(0.0))?;
+    let mut recorder = Recorder::new(system, stepper.moving(&x), samples).map_err(at(0.0))?;
     let is_held = stepper.control().held_steps().is_some();
     let time_of = |step: u64| timing.time_of(step, is_held);
     let Properties { path_divisions: divisions, is_adaptive, .. } = timing.integration.integrator.properties();
@@ -291,14 +291,14 @@ pub fn simulate(
     recorder.record_path(0.0, &x).map_err(at(0.0))?;
     if ends_at_start {
         stepper.begin_step(0.0, &x).map_err(at(0.0))?;
-        recorder.audit(0.0, stepper.moving()).map_err(at(0.0))?;
+        recorder.audit(0.0, stepper.moving(&x)).map_err(at(0.0))?;
         recorder.record(stepper.control(), 0.0, &x, true).map_err(at(0.0))?;
         return Ok(recorder.end(0.0, Some((0, 0.0)), stepper.path_errors(0.0)));
     }
     for i in 0..steps {
         let span @ [time, end] = [time_of(i), time_of(i + 1)];
         stepper.begin_step(time, &x).map_err(at(time))?;
-        recorder.audit(time, stepper.moving()).map_err(at(time))?;
+        recorder.audit(time, stepper.moving(&x)).map_err(at(time))?;
         recorder.record(stepper.control(), time, &x, i % stride == 0).map_err(at(time))?;
         let mut from = time;
         while from < end {
@@ -323,7 +323,7 @@ pub fn simulate(
             recorder.record_path(until, &x).map_err(at(until))?;
             if let Some((_, when)) = event {
                 recorder.add_saturation(when);
-                recorder.audit(when, stepper.moving()).map_err(at(when))?;
+                recorder.audit(when, stepper.moving(&x)).map_err(at(when))?;
                 recorder.record_event(stepper.control(), when, &x).map_err(at(when))?;
                 return Ok(recorder.end(when, event, stepper.path_errors(when)));
             }
@@ -335,7 +335,7 @@ pub fn simulate(
         recorder.add_saturation(end);
         tick();
     }
-    recorder.audit(timing.duration, stepper.moving()).map_err(at(timing.duration))?;
+    recorder.audit(timing.duration, stepper.moving(&x)).map_err(at(timing.duration))?;
     recorder.record(stepper.control(), timing.duration, &x, true).map_err(at(timing.duration))?;
     Ok(recorder.end(timing.duration, None, stepper.path_errors(timing.duration)))
 }

@@ -205,7 +205,7 @@ impl<'a> PathInterval<'a> {
 }
 
 /// A coordinate over an interval: start + u (first + u (second + u third)) over the part u of it.
-struct Cubic {
+pub(super) struct Cubic {
     start: f64,
     first: f64,
     second: f64,
@@ -215,7 +215,7 @@ struct Cubic {
 impl Cubic {
     /// From the coordinate and its rate at the ends of an interval of a length, s.
     #[inline]
-    fn new(length: f64, ends @ [[start, v], [_, w]]: [[f64; 2]; 2]) -> Self {
+    pub(super) fn new(length: f64, ends @ [[start, v], [_, w]]: [[f64; 2]; 2]) -> Self {
         let bend = bend(length, ends);
         let [first, last] = [length * v, length * w];
         Self { start, first, second: 0.5 * (last - first) + 3.0 * bend, third: -2.0 * bend }
@@ -223,7 +223,7 @@ impl Cubic {
 
     /// The coordinate and its rate.
     #[inline]
-    fn at(&self, u: f64, length: f64) -> [f64; 2] {
+    pub(super) fn at(&self, u: f64, length: f64) -> [f64; 2] {
         let Self { first, second, third, .. } = self;
         [self.position(u), (first + u * (2.0 * second + u * 3.0 * third)) / length]
     }

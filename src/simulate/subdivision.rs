@@ -7,7 +7,7 @@
 
 use crate::error::Error;
 use crate::simulate::continued_motion::ContinuedMotion;
-use crate::simulate::path::{PathInterval, PathPart, path_state};
+use crate::simulate::path::{Cubic, PathInterval, path_state};
 use crate::simulate::stepper::StateAt;
 use crate::simulate::system::System;
 use crate::state::{split, split_mut};
@@ -161,7 +161,7 @@ impl Subdivision {
 struct Comparison {
     /// Metres per unit of each position.
     weights: Vec<f64>,
-    /// Positions and rates of the interpolant.
+    /// Positions and rates that the parts before show.
     found: [Vec<f64>; 2],
 }
 
@@ -181,42 +181,61 @@ impl Comparison {
 
     /// Whether the interpolant between two states passes through one between them.
     fn is_reproduced(
-        &mut self,
+        &self,
         span: [f64; 2],
         [start, end]: [&[f64]; 2],
         (time, between): (f64, &[f64]),
     ) -> Result<bool, Error> {
-        let (interval, between) = (PathInterval::between(span, start, end)?, split(between)?);
-        let [positions, rates] = &mut self.found;
-        interval.at(time, positions, rates);
-        Ok(self.is_found(span[1] - span[0], [between.positions, between.rates], 1.0))
+        let [start, end, between] = [split(start)?, split(end)?, split(between)?];
+        let length = span[1] - span[0];
+        let at = [(time - span[0]) / length, length];
+        let [start, end, between] = [start, end, between].map(|state| (state.positions, state.rates));
+        Ok(passes_through(&self.weights, at, start, end, between))
     }
 
     /// Whether positions and rates are those that were found within an interval of a length, s, where a share of their
     /// errors counts.
     fn is_found(&self, length: f64, [expected, expected_rates]: [&[f64]; 2], share: f64) -> bool {
         let [positions, rates] = &self.found;
-        // the largest position error of a rate error: a quarter of the interval at most
-        let lever = 0.125 * length;
-        are_near(&self.weights, [lever, share], (positions, rates), (expected, expected_rates))
+        let found = self.weights.iter().zip(positions.iter().zip(rates)).zip(expected.iter().zip(expected_rates));
+        found.fold(true, |are_near, ((weight, (x, v)), (expected, expected_rate))| {
+            are_near & is_near(*weight, [length, share], [*x, *v], [*expected, *expected_rate])
+        })
     }
 }
 
-/// Whether the weighed errors of positions and rates are small. All are looked at, several at once.
+/// Whether the interpolant over an interval of a length, s, from positions and rates at its ends, passes through those of a state
+/// at the part u of it. All are looked at, several at once.
 #[multiversion(targets("x86_64+avx2"))]
-fn are_near(
+fn passes_through(
     weights: &[f64],
-    [lever, share]: [f64; 2],
-    (positions, rates): (&[f64], &[f64]),
+    [u, length]: [f64; 2],
+    (x, v): (&[f64], &[f64]),
+    (y, w): (&[f64], &[f64]),
     (expected, expected_rates): (&[f64], &[f64]),
 ) -> bool {
-    let found = weights.iter().zip(positions.iter().zip(rates));
+    let ends = x.iter().zip(v).zip(y.iter().zip(w)).zip(weights);
     let mut are_near = true;
-    for ((weight, (position, rate)), (expected, expected_rate)) in found.zip(expected.iter().zip(expected_rates)) {
-        let error = (position - expected).abs().max(lever * (rate - expected_rate).abs());
-        are_near &= weight * error * share <= TOLERANCE.max(weight * ROUNDING * expected.abs());
+    for ((((x, v), (y, w)), weight), (expected, expected_rate)) in ends.zip(expected.iter().zip(expected_rates)) {
+        let found = Cubic::new(length, [[*x, *v], [*y, *w]]).at(u, length);
+        are_near &= is_near(*weight, [length, 1.0], found, [*expected, *expected_rate]);
     }
     are_near
+}
+
+/// Whether a share of the errors of a position and its rate, of so many metres per unit, is small over an interval of a length, s.
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "its vectors are those of the caller")]
+fn is_near(
+    weight: f64,
+    [length, share]: [f64; 2],
+    [position, rate]: [f64; 2],
+    [expected, expected_rate]: [f64; 2],
+) -> bool {
+    // the largest position error of a rate error: a quarter of the interval at most
+    let lever = 0.125 * length;
+    let error = (position - expected).abs().max(lever * (rate - expected_rate).abs());
+    weight * error * share <= TOLERANCE.max(weight * ROUNDING * expected.abs())
 }
 
 #[cfg(test)]

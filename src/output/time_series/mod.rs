@@ -101,7 +101,7 @@ pub fn all_rows<'a>(study: &'a Study, case: &'a CaseResult) -> impl Iterator<Ite
 
 fn before_impact<'a>(approach: &Phase, case: &CaseResult, sample: Cow<'a, Sample>) -> TimeSeriesRow<'a> {
     let targets = case.targets_before(approach.duration - sample.time);
-    let total_momentum = with_bodies(sample.momentum, &targets);
+    let total_momentum = with_bodies(sample.momentum, targets.iter().copied());
     TimeSeriesRow { time: sample.time, phase: APPROACH, sample, targets: Cow::Owned(targets), total_momentum }
 }
 

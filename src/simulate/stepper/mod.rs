@@ -184,8 +184,10 @@ pub(crate) struct Stepper<'a> {
     last_part: [Vec<f64>; 2],
     /// What is integrated in.
     frame: MovingFrame,
-    /// The vectors in that frame at the start and at the end of the last part of a step.
-    part: [Vec<f64>; 2],
+    /// The vector in that frame at the start of the last part of a step.
+    start: Vec<f64>,
+    /// The same at the end of the part, where it is not that of the inertial frame.
+    end: Vec<f64>,
 }
 
 impl<'a> Stepper<'a> {
@@ -214,8 +216,8 @@ impl<'a> Stepper<'a> {
         let equation = Equation::new(system, law, kink, form);
         let steps = integration.integrator.steps(duration, x.len(), equation.control.has_feedback());
         let companion = Companion::new(integration.integrator, duration, &moving, &equation);
-        let part = [moving.clone(), moving];
-        Ok(Self { equation, steps, companion, last_part: [Vec::new(), Vec::new()], frame, part })
+        let last_part = [Vec::new(), Vec::new()];
+        Ok(Self { equation, steps, companion, last_part, frame, start: moving.clone(), end: moving })
     }
 
     /// Begins a step of the control law at `x`, before its torques are evaluated.
@@ -233,15 +235,18 @@ impl<'a> Stepper<'a> {
     /// Advances `x` over a part of the next step, of which it has come to `from`; returns where the part ends: within it
     /// [`within`](Self::within) has the motion.
     pub(crate) fn advance(&mut self, span: [f64; 2], from: f64, x: &mut [f64]) -> Result<f64, Error> {
-        let [start, moving] = &mut self.part;
+        let Self { equation, steps, companion, frame, start, end, .. } = self;
+        let moving = if frame.is_moving() { &mut end[..] } else { &mut *x };
         start.copy_from_slice(moving);
-        let end = self.equation.smooth_until([from, span[1]]);
-        let reached = self.steps.advance(&mut self.equation, [span[0], end], from, moving)?;
+        let until = equation.smooth_until([from, span[1]]);
+        let reached = steps.advance(equation, [span[0], until], from, moving)?;
         if reached >= span[1] {
-            self.companion.follow(&mut self.equation, span, moving);
+            companion.follow(equation, span, moving);
         }
-        x.copy_from_slice(moving);
-        self.frame.leave(reached, x)?;
+        if frame.is_moving() {
+            x.copy_from_slice(end);
+            frame.leave(reached, x)?;
+        }
         Ok(reached)
     }
 
@@ -251,9 +256,9 @@ impl<'a> Stepper<'a> {
         (Real::maximum(error, self.frame.rounding(time)), at_end)
     }
 
-    /// The vector where the last part of a step ends, in the frame that is integrated in.
-    pub(crate) fn moving(&self) -> &[f64] {
-        &self.part[1]
+    /// The vector where the last part of a step ends, in the frame that is integrated in; in the inertial frame it is `x`.
+    pub(crate) fn moving<'s>(&'s self, x: &'s [f64]) -> &'s [f64] {
+        if self.frame.is_moving() { &self.end } else { x }
     }
 
     /// A vector in the frame that is integrated in.
@@ -272,12 +277,12 @@ impl<'a> Stepper<'a> {
     /// Ends the last part of a step within it, at `time`, with the vector there in `x`.
     pub(crate) fn end_at(&mut self, span @ [_, time]: [f64; 2], x: &mut Vec<f64>) -> Result<(), Error> {
         self.moving_within(span, x)?;
-        self.part[1].clone_from(x);
+        self.end.clone_from(x);
         self.frame.leave(time, x)
     }
 
     fn moving_within(&mut self, [start, time]: [f64; 2], into: &mut Vec<f64>) -> Result<(), Error> {
-        into.clone_from(&self.part[0]);
+        into.clone_from(&self.start);
         if time <= start {
             return Ok(());
         }

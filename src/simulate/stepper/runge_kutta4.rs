@@ -11,7 +11,7 @@ pub(super) fn steps(length: usize) -> impl Steps {
     let mut workspace = vec![0.0; RungeKutta4::<f64>::WORKSPACE * length];
     move |equation: &mut Equation<'_>, [time, end]: [f64; 2], x: &mut [f64]| {
         let mut integrator = RungeKutta4::new(&mut workspace)?;
-        integrator.step(time, end - time, x, |t, x, rate| equation.derivative(t, x, rate))?;
+        equation.runge_kutta4_step(&mut integrator, [time, end], x)?;
         equation.restore(x)
     }
 }
