@@ -11,7 +11,7 @@ pub(super) const BLOCK: usize = 8;
 pub(super) type Blocks = Vec<[f64; BLOCK]>;
 
 /// `start + step Σ factor stage`, into the last argument; the stages one after the other.
-#[multiversion(targets("x86_64+avx2"))]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx2", "x86_64+avx2"))]
 pub(super) fn combine(
     start: &[[f64; BLOCK]],
     step: f64,
@@ -27,13 +27,13 @@ pub(super) fn combine(
 }
 
 /// `Σ factor stage`, into the last argument.
-#[multiversion(targets("x86_64+avx2"))]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx2", "x86_64+avx2"))]
 pub(super) fn sum(row: &[(usize, f64)], stages: &[[f64; BLOCK]], into: &mut [[f64; BLOCK]]) {
     for_each_sum(row, stages, into.len(), |i, sum| into[i] = sum);
 }
 
 /// `start + step s Σ cₖ Tₖ(2 s - 1)`, into the last argument; the coefficients c of Chebyshev's polynomials T one after the other.
-#[multiversion(targets("x86_64+avx2"))]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx2", "x86_64+avx2"))]
 pub(super) fn chebyshev(
     start: &[[f64; BLOCK]],
     step: f64,
@@ -56,7 +56,7 @@ pub(super) fn chebyshev(
 }
 
 /// The largest `step Σ factor stage` of a step between `ends`, over the error that is allowed.
-#[multiversion(targets("x86_64+avx2"))]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx2", "x86_64+avx2"))]
 pub(super) fn largest_error(
     ends: [&[[f64; BLOCK]]; 2],
     step: f64,

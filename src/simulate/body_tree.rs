@@ -146,7 +146,7 @@ impl LaneSums {
 }
 
 /// The motions of all bodies, and the sums over them; `FAR` says whether angles may be far from 0.
-#[multiversion(targets("x86_64+avx2"))]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx2", "x86_64+avx2"))]
 fn sweep<const FAR: bool>(nodes: &[Node], positions: &[Lanes], rates: &[Lanes], motions: &mut [Motion]) -> LaneSums {
     // what is written is in variables of this function, which the compiler knows apart
     let mut all = LaneSums::default();
@@ -185,7 +185,7 @@ fn sweep<const FAR: bool>(nodes: &[Node], positions: &[Lanes], rates: &[Lanes], 
 }
 
 /// The largest distance of a body's COM from that of all, m.
-#[multiversion(targets("x86_64+avx2"))]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx2", "x86_64+avx2"))]
 fn extent(motions: &[Motion], sums: &LaneSums) -> Lanes {
     let (center, mut most) = (sums.first_moment.map(|moment| moment.map(|moment| moment / sums.mass)), [0.0; LANES]);
     for Motion { x, y, .. } in motions {
