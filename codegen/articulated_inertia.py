@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 
-from .plane_vectors import Rotation, Vector
+from .plane_vectors import Rotation, Vector, dot, scale, subtract
 from .symbols import Symbols
 
 
@@ -15,6 +15,9 @@ class ArticulatedInertia:
     ``difference`` is xx - yy and ``twice_xy`` is 2 xy, where these are constants. Rotation by an angle changes a
     constant diagonal ``constant`` to xx = constant[0] - change and yy = constant[1] + change: a constant term of a sum
     can be added to ``constant`` when the model is built.
+
+    ``remains_of`` is (T, r, 1 / D) of what an elimination has left, A = T - r r^T / D, where products take the inverse
+    last: it is a division, and the longest path through several bodies goes from division to division.
     """
 
     xx: ca.SX
@@ -24,6 +27,7 @@ class ArticulatedInertia:
     constant: Vector | None = None
     change: ca.SX | None = None
     twice_xy: ca.SX | None = None
+    remains_of: tuple["ArticulatedInertia", Vector, ca.SX] | None = None
 
     @property
     def elements(self) -> list[ca.SX]:
@@ -43,7 +47,18 @@ class ArticulatedInertia:
         return ArticulatedInertia(self.xx - change, c * v - self.xy, self.yy + change, None, constant, change)
 
     def times(self, a: Vector) -> Vector:
-        return self.xx * a[0] + self.xy * a[1], self.xy * a[0] + self.yy * a[1]
+        if self.remains_of is None:
+            return self.xx * a[0] + self.xy * a[1], self.xy * a[0] + self.yy * a[1]
+        total, coupling, inverse = self.remains_of
+        return subtract(total.times(a), scale(dot(coupling, a) * inverse, coupling))
+
+    def square(self, a: Vector) -> ca.SX:
+        """a . A a."""
+        if self.remains_of is None:
+            return dot(a, self.times(a))
+        total, coupling, inverse = self.remains_of
+        along = dot(coupling, a)
+        return total.square(a) - along * along * inverse
 
     def balance(self, b: Vector, determinant_inverse: ca.SX) -> Vector:
         """a of A a + b = 0 by Cramer's rule: a division is on the longest path, and L D L^T has two of them."""
@@ -53,6 +68,15 @@ class ArticulatedInertia:
 
     def plus(self, other: "ArticulatedInertia") -> "ArticulatedInertia":
         return ArticulatedInertia(self.xx + other.xx, self.xy + other.xy, self.yy + other.yy)
+
+    def without(self, coupling: Vector, response: Vector, inverse: ca.SX | None = None) -> "ArticulatedInertia":
+        """A - r r^T / D from r, r / D and, where products are to take it last, 1 / D."""
+        return ArticulatedInertia(
+            self.xx - coupling[0] * response[0],
+            self.xy - coupling[0] * response[1],
+            self.yy - coupling[1] * response[1],
+            remains_of=None if inverse is None else (self, coupling, inverse),
+        )
 
     def xx_plus(self, symbols: Symbols, name: str, term: ca.SX, text: str) -> ca.SX:
         """xx + term for a constant term, which ``name`` and ``text`` describe."""

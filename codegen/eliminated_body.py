@@ -48,13 +48,13 @@ class EliminatedBody:
         self.coupling = r = add(perpendicular(self.first_moment), across)
         self.centripetal = add(self.first_moment, along)
         self.centripetal_moment = dot(self.lever, along)
-        self.pivot = self.joint_inertia + dot(self.lever, across)
+        self.pivot = self.joint_inertia + child.inertia.square(self.lever)
         self.inverse = symbols.reciprocal(self.pivot)
         self.response = scale(self.inverse, r)
         total = ArticulatedInertia(own.mass, ZERO, own.mass).plus(child.inertia)
-        self.inertia = ArticulatedInertia(
-            total.xx - r[0] * self.response[0], total.xy - r[0] * self.response[1], total.yy - r[1] * self.response[1]
-        )
+        # a body outboard of it decides for the whole chain
+        inverse = None if child.inertia.remains_of is None else self.inverse
+        self.inertia = total.without(r, self.response, inverse)
 
     @property
     def configuration_values(self) -> list:

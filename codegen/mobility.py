@@ -10,7 +10,7 @@ import casadi as ca
 
 from .articulated_inertia import ArticulatedInertia
 from .eliminated_arm import EliminatedArm
-from .free_base import FreeBase
+from .free_base import RotationFirst
 from .inputs import Inputs
 from .plane_vectors import ZERO, ZERO_VECTOR, Vector, add, dot, perpendicular, rotation, scale, subtract
 from .signatures import Section
@@ -32,7 +32,7 @@ class Mobility:
         base_rotation = rotation(inputs.base_pose[0])
         self.arms = [EliminatedArm(symbols, arm, inputs, base_rotation) for arm in symbols.arms]
         self.levers = [perpendicular(arm.mount) for arm in self.arms]
-        self.base = FreeBase(symbols, [(arm.mount, arm.inertia) for arm in self.arms])
+        self.base = RotationFirst(symbols, [(arm.mount, arm.inertia) for arm in self.arms])
         self.inverse = self._inverse()
         self.centripetal, self.centripetal_moment = ZERO_VECTOR, ZERO
         for arm, lever in zip(self.arms, self.levers, strict=True):

@@ -21,7 +21,7 @@ from .articulated_inertia import ArticulatedInertia
 from .composite_inertia import CompositeInertia
 from .eliminated_body import EliminatedBody
 from .equations_of_motion import EquationsOfMotion
-from .free_base import FreeBase
+from .free_base import TranslationFirst
 from .inputs import Inputs
 from .kinematics import ArmVelocities
 from .plane_vectors import ZERO, ZERO_VECTOR, Vector, add, cross, dot, perpendicular, scale, subtract
@@ -44,10 +44,8 @@ class MergedLink:
         self.pivot = arm.inertia[-1] + about_joint
         self.inverse = symbols.reciprocal(self.pivot)
         self.response = scale(self.inverse, coupling)
-        total, off_diagonal = link.mass + mass, -(coupling[0] * self.response[1])
-        self.inertia = ArticulatedInertia(
-            total - coupling[0] * self.response[0], off_diagonal, total - coupling[1] * self.response[1]
-        )
+        total = ArticulatedInertia(link.mass + mass, ZERO, link.mass + mass)
+        self.inertia = total.without(coupling, self.response, self.inverse)
 
 
 class CapturingArm:
@@ -118,7 +116,7 @@ class RigidCapture:
         arms = [
             CapturingArm(symbols, arm, velocities[index], inputs, index) for index, arm in enumerate(equations.arms)
         ]
-        base = FreeBase(symbols, [(arm.positions.mount, arm.inertia) for arm in arms])
+        base = TranslationFirst(symbols, [(arm.positions.mount, arm.inertia) for arm in arms])
         mass, inertia = equations.total_mass, equations.augmented_inertia
         for arm, target_mass in zip(arms, ca.vertsplit(inputs.target_masses), strict=True):
             mass = mass + target_mass

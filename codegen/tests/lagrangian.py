@@ -186,7 +186,7 @@ class State:
     def merged_pivot(self, g: np.ndarray) -> float:
         """Smallest pivot of G, from the last links to the base, relative to its value if all bodies outboard moved
         without turning; those of last links and of links without length are left out, which are not below 1."""
-        order = [*reversed(range(3, self.robot.size)), 0, 1, 2]
+        order = [*reversed(range(3, self.robot.size)), 1, 2, 0]
         pivots = dict(zip(order, np.diag(np.linalg.cholesky(g[np.ix_(order, order)])) ** 2, strict=True))
         layout, joint, ratios = self.robot.layout, 3, []
         mass, inertia = layout.base.mass, layout.base.inertia
