@@ -12,6 +12,7 @@ where n and -F_0 are moment about the joint and force on the body: those of the 
 others, of the child's joint at d, -(z x d) . b' and -b'.
 """
 
+from dataclasses import replace
 from functools import reduce
 
 import casadi as ca
@@ -84,7 +85,8 @@ class CapturingArm:
             self.force = add(self.force, scale(alpha_0, body.coupling))
             self.bodies.insert(0, body)
             self.alpha_0.insert(0, alpha_0)
-        self.inertia = self.bodies[0].inertia
+        # at the base its elements are on the longest path anyway, and fewer operations with them
+        self.inertia = replace(self.bodies[0].inertia, remains_of=None)
         self.smallest_pivot = reduce(ca.fmin, relative_pivots)
         title = positions.symbols.title
         self.sections = [

@@ -176,7 +176,10 @@ impl<'a> ConservationAudit<'a> {
     }
 
     /// The same for an integrated vector of the robot with these bodies.
-    pub(crate) fn record_vector(&mut self, x: &[f64], input: &AccumulatedInput) -> Result<(), Error> {
+    ///
+    /// # Errors
+    /// As [`record`](Self::record), and [`Error::StateVector`].
+    pub fn record_vector(&mut self, x: &[f64], input: &AccumulatedInput) -> Result<(), Error> {
         let StateVector { positions, rates, .. } = split(x)?;
         self.pending.push(positions, rates, input)?;
         self.check_when_full()

@@ -13,6 +13,7 @@ use planar_capture::error::Error;
 use planar_capture::generated::dual_arm_3r::{FullImpact, Model, ReducedImpact};
 use planar_capture::integrate::RungeKutta4;
 use planar_capture::owned::RobotState;
+use planar_capture::simulate::conservation::{AccumulatedInput, ConservationAudit};
 use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::system::System;
 use planar_capture::simulate::{Timing, simulate};
@@ -116,6 +117,7 @@ pub fn print() -> Result<(), Problem> {
     record("f64, step", steps(|x| by_model(&model, x)));
     record("library, step", library_steps(&model));
     record("simulation, step", simulated_steps(&model));
+    record("audit, step", audited_states(&model, &few)?);
 
     record("f32, forward dynamics", per_lane!(f32, f32, 1, few, |[value]| value));
     record("f64x4, forward dynamics", per_lane!(f64x4, f64, 4, few, f64x4::from));
@@ -225,6 +227,17 @@ fn simulated_steps(model: &Model<f64>) -> f64 {
     let timing = Timing { duration, step: STEP, sample: duration, ..Timing::default() };
     let mut run = |()| simulate(&System::alone(model), &mut law, &start, &timing, &mut NoEvents, &mut || ());
     each(&[()], |()| consume(run(()))) / f64::from(STEPS)
+}
+
+/// Nanoseconds per state of the audit that a simulation makes at every step.
+fn audited_states(model: &Model<f64>, states: &[State]) -> Result<f64, Error> {
+    let mut vectors = vec![[0.0; vector_length(6)]; states.len()];
+    states.iter().zip(&mut vectors).try_for_each(|(state, vector)| view(state).write(vector))?;
+    let mut audit = ConservationAudit::new(model, &view(&states[0]), &[])?;
+    let input = AccumulatedInput::default();
+    let time = each(&vectors, |vector| audit.record_vector(vector, &input).expect("a finite state"));
+    consume(audit.drift());
+    Ok(time)
 }
 
 #[allow(clippy::cast_precision_loss, reason = "nanoseconds of minutes")]
