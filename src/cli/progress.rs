@@ -33,7 +33,8 @@ fn interval(text: &str) -> Result<Duration, String> {
 
 /// Shows the running part of a study.
 pub struct Progress {
-    bar: ProgressBar,
+    /// Where it is seen: it has a thread of its own for every part.
+    bar: Option<ProgressBar>,
     lines: Option<Lines>,
     steps: u64,
     /// Steps between two positions of the bar.
@@ -43,32 +44,36 @@ pub struct Progress {
 impl Progress {
     /// The bar appears with the first part, lines from now on.
     pub fn new(display: Display) -> Self {
-        let bar = if display.quiet { ProgressBar::hidden() } else { ProgressBar::no_length() };
-        let lines = (bar.is_hidden() && !display.quiet).then(|| Lines::every(display.progress.max(TICK)));
+        let bar = (!display.quiet).then(ProgressBar::no_length).filter(|bar| !bar.is_hidden());
+        let lines = (bar.is_none() && !display.quiet).then(|| Lines::every(display.progress.max(TICK)));
         Self { bar, lines, steps: 0, stride: STRIDE }
     }
 
     /// Removes the bar.
     pub fn finish(&mut self) {
-        self.bar.finish_and_clear();
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
         self.lines = None;
     }
 }
 
 impl Observer for Progress {
     fn begin(&mut self, part: &str, steps: u64) {
-        let known = "{msg:>22} {bar:40} {percent:>3} % {eta}";
-        set_template(&self.bar, if steps > 0 { known } else { "{msg:>22} {spinner} {pos} steps" });
-        self.bar.set_message(part.to_owned());
-        self.bar.reset();
-        if steps > 0 {
-            self.bar.set_length(steps);
-        } else {
-            self.bar.unset_length();
-        }
-        self.bar.enable_steady_tick(TICK);
         self.steps = 0;
         self.stride = if steps > 0 { steps.div_ceil(POSITIONS) } else { STRIDE };
+        if let Some(bar) = &self.bar {
+            let known = "{msg:>22} {bar:40} {percent:>3} % {eta}";
+            set_template(bar, if steps > 0 { known } else { "{msg:>22} {spinner} {pos} steps" });
+            bar.set_message(part.to_owned());
+            bar.reset();
+            if steps > 0 {
+                bar.set_length(steps);
+            } else {
+                bar.unset_length();
+            }
+            bar.enable_steady_tick(TICK);
+        }
         if let Some(lines) = &self.lines {
             lines.position.begin(part, steps);
         }
@@ -76,8 +81,8 @@ impl Observer for Progress {
 
     fn step(&mut self) {
         self.steps += 1;
-        if self.steps.is_multiple_of(self.stride) {
-            self.bar.set_position(self.steps);
+        if let Some(bar) = self.bar.as_ref().filter(|_| self.steps.is_multiple_of(self.stride)) {
+            bar.set_position(self.steps);
         }
         if let Some(lines) = &self.lines {
             lines.position.steps.store(self.steps, Ordering::Relaxed);
