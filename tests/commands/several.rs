@@ -94,6 +94,7 @@ fn all_scenarios_are_checked_before_the_first_is_computed() {
 }
 
 /// A folder that holds one run takes no others beside it, unless they are to replace that.
+#[cfg(feature = "figures")] // of which its folder has one
 #[test]
 fn a_folder_that_holds_one_run_takes_no_others() {
     let files = Files::new();
