@@ -5,6 +5,7 @@ use super::continuation::Continuation;
 use super::motion::Motion;
 use super::pair::{DEGREE, DORMAND_PRINCE, MOST_STAGES, Pair, VERNER};
 use crate::error::Error;
+use crate::scalar::Real;
 
 /// The next step over the one that the error estimate allows.
 const SAFETY: f64 = 0.9;
@@ -69,6 +70,8 @@ pub struct Adaptive {
     interpolant: Blocks,
     /// Whether they are found.
     is_dense: bool,
+    /// Of the entries of the interpolant, per s⁴; infinite before it is found.
+    fourth_derivative: f64,
     /// The next step, s.
     step: f64,
     /// The same before it is shortened to end at `end`.
@@ -114,6 +117,7 @@ impl Adaptive {
             stages: Vec::new(),
             interpolant: Vec::new(),
             is_dense: false,
+            fourth_derivative: f64::INFINITY,
             step: 0.0,
             next_step: 0.0,
             attempts: 0,
@@ -188,6 +192,13 @@ impl Adaptive {
         Ok(())
     }
 
+    /// A bound of the fourth derivative of every entry of x over the last step, in its unit per s⁴; infinite where no x within that step
+    /// was asked for.
+    #[must_use]
+    pub fn fourth_derivative(&self) -> f64 {
+        self.fourth_derivative
+    }
+
     /// The number of steps taken or rejected so far.
     #[must_use]
     pub fn attempts(&self) -> u64 {
@@ -254,7 +265,7 @@ impl Adaptive {
             self.pair = self.pairs[usize::from(!lands)];
             self.attempts += 1;
             self.stages[..blocks].copy_from_slice(&self.rate);
-            self.is_dense = false;
+            (self.is_dense, self.fourth_derivative) = (false, f64::INFINITY);
             let stages = (1..self.pair.stages).try_for_each(|stage| self.add_stage(start, self.step, 1, stage, motion));
             // a step that is too long can leave what the motion is defined for; whether a shorter one does is seen then
             let error = match stages {
@@ -328,8 +339,25 @@ impl Adaptive {
             sum(row, &self.stages, coefficients);
         }
         self.is_dense = true;
+        self.fourth_derivative = fourth_derivative(end - start, self.interpolant.chunks_exact(blocks));
         Ok(())
     }
+}
+
+/// A bound of the fourth derivative of every entry of `x + h s Σ cₖ Tₖ(u)`, `u = 2 s - 1`, over a step of a length h, s, from the
+/// coefficients c of each k. With `2 s = 1 + u` it is `(2/h)⁴ h/2 ((1 + u) Σ cₖ Tₖ⁗ + 4 Σ cₖ Tₖ‴)`, and a derivative of Tₖ is largest at
+/// `u = 1`.
+fn fourth_derivative<'a>(length: f64, coefficients: impl Iterator<Item = &'a [[f64; BLOCK]]>) -> f64 {
+    let (mut bound, mut k) = (0.0, 0.0_f64);
+    for of_all in coefficients {
+        let square = k * k;
+        let third = square * (square - 1.0) * (square - 4.0) / 15.0;
+        let fourth = third * (square - 9.0) / 7.0;
+        let largest = of_all.as_flattened().iter().fold(0.0, |most: f64, c| Real::maximum(most, c.abs()));
+        bound += largest * (2.0 * fourth + 4.0 * third);
+        k += 1.0;
+    }
+    8.0 * bound / length.powi(3)
 }
 
 #[cfg(test)]

@@ -304,8 +304,9 @@ pub fn simulate(
         while from < end {
             locator.begin([from, end], &x, &mut stepper).map_err(at(from))?;
             let part @ [_, to] = [from, stepper.advance(span, from, &mut x).map_err(at(from))?];
+            let fourth_derivative = stepper.fourth_derivative();
             let mut within = |t: f64, into: &mut Vec<f64>| stepper.within([from, t], into);
-            subdivision.divide(part, &x, &mut within).map_err(at(from))?;
+            subdivision.divide(part, &x, fourth_derivative, &mut within).map_err(at(from))?;
             let event = locator.find(part, &x, &subdivision, &mut stepper).map_err(at(from))?;
             let until = event.map_or(to, |(_, when)| when);
             for (knot, x) in subdivision.ends().filter(|(knot, _)| *knot < until) {

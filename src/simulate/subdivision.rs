@@ -3,7 +3,8 @@
 //! An accurate step may be long: those of an adaptive integrator and of Gauss–Legendre follow motions that turn far
 //! within one, which the cubic through its ends does not show. Interpolant and integrator are compared in the middle of
 //! an interval, where the error of the interpolant is largest: in positions, and in rates, as an error that is odd about
-//! the middle has a slope there. A motion that the parts before a step continue needs no evaluations for it.
+//! the middle has a slope there. A motion that the parts before a step continue needs no evaluations for it, and where the
+//! integrator bounds the fourth derivative, short parts need no comparison.
 
 use crate::error::Error;
 use crate::simulate::continued_motion::ContinuedMotion;
@@ -49,25 +50,32 @@ impl Subdivision {
     }
 
     /// Divides the part of a step over the times of `span`, which starts where the one before it ended and ends at this integrated
-    /// vector.
-    pub(crate) fn divide(&mut self, span: [f64; 2], end: &[f64], state_at: &mut StateAt<'_>) -> Result<(), Error> {
+    /// vector; the fourth derivatives of its entries over the part are no larger than `fourth_derivative`.
+    pub(crate) fn divide(
+        &mut self,
+        span: [f64; 2],
+        end: &[f64],
+        fourth_derivative: f64,
+        state_at: &mut StateAt<'_>,
+    ) -> Result<(), Error> {
         let Self { knots, divisions, comparison, continued, spare, .. } = self;
         let before = knots.len().checked_sub(2).map(|i| knots.swap_remove(i));
         spare.extend(knots.drain(..knots.len() - 1).map(|(_, state)| state));
         let (time, start) = &mut knots[0];
         *time = span[0];
+        let is_short = *divisions == 0 || comparison.is_cubic(span[1] - span[0], fourth_derivative);
         let is_reproduced = match &before {
             // where the interpolant over this part and one before it is the motion, that over this part alone is
-            Some((time, state)) if *divisions > 0 && span[0] - time >= 0.5 * (span[1] - span[0]) => {
+            Some((time, state)) if !is_short && span[0] - time >= 0.5 * (span[1] - span[0]) => {
                 comparison.is_reproduced([*time, span[1]], [state, end], (span[0], start))?
             }
-            _ => false,
+            _ => is_short,
         };
-        if *divisions > 0 {
+        if !is_short {
             continued.push(span, [start, end].map(path_state));
         }
         spare.extend(before.map(|(_, state)| state));
-        if *divisions == 0 || is_reproduced {
+        if is_reproduced {
             let end = self.copy(end);
             self.knots.push((span[1], end));
             return Ok(());
@@ -161,6 +169,7 @@ impl Subdivision {
 struct Comparison {
     /// Metres per unit of each position.
     weights: Vec<f64>,
+    largest_weight: f64,
     /// Positions and rates that the parts before show.
     found: [Vec<f64>; 2],
 }
@@ -176,7 +185,13 @@ impl Comparison {
             }
         }
         let found = [vec![0.0; weights.len()], vec![0.0; weights.len()]];
-        Self { weights, found }
+        Self { weights, largest_weight: system.reach.max(1.0), found }
+    }
+
+    /// Whether the interpolant is the motion over an interval of a length, s, with such fourth derivatives: it is off by no more than
+    /// `h⁴ x⁗/384`, and in the rates by what is less with their lever.
+    fn is_cubic(&self, length: f64, fourth_derivative: f64) -> bool {
+        self.largest_weight * fourth_derivative * length.powi(4) <= 384.0 * TOLERANCE
     }
 
     /// Whether the interpolant between two states passes through one between them.

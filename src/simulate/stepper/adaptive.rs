@@ -86,6 +86,10 @@ impl Steps for AdaptiveSteps {
         self.solver.next_step()
     }
 
+    fn fourth_derivative(&self) -> f64 {
+        self.solver.fourth_derivative()
+    }
+
     fn within(&mut self, equation: &mut Equation<'_>, [_, time]: [f64; 2], x: &mut [f64]) -> Result<(), Error> {
         self.solver.interpolate(time, x, equation)?;
         equation.restore(x)

@@ -93,6 +93,9 @@ impl Companion {
         if is_at_limit(&equation.control) && self.order.is_some_and(|order| order > 1) {
             self.lower_order();
         }
+        if self.order.is_none() && self.waits(equation, span) {
+            return self.latest.copy_from_slice(x);
+        }
         match self.exchanged(equation, |own, equation| own.advance(equation, span)) {
             Ok(false) => self.latest.copy_from_slice(x),
             Ok(true) => self.compare(x),
@@ -164,15 +167,21 @@ impl Companion {
         (self.is_lost, self.error) = (true, Real::maximum(self.error, UNKNOWN));
     }
 
+    /// Whether adaptive steps follow over this one later, with the next ones.
+    fn waits(&mut self, equation: &Equation<'_>, [start, end]: [f64; 2]) -> bool {
+        let from = self.pending.map_or(start, |[from, _]| from);
+        let waits = end - from < COMPARED * self.steps.next_step() && equation.control.held_steps().is_none();
+        if waits {
+            self.pending = Some([from, end]);
+        }
+        waits
+    }
+
     /// Advances it; returns whether it is as far as the first.
     fn advance(&mut self, equation: &mut Equation<'_>, span @ [_, end]: [f64; 2]) -> Result<bool, Error> {
         let is_held = equation.control.held_steps().is_some();
         if self.order.is_none() {
             let from = self.pending.take().map_or(span[0], |[from, _]| from);
-            if !is_held && end - from < COMPARED * self.steps.next_step() {
-                self.pending = Some([from, end]);
-                return Ok(false);
-            }
             return self.steps.advance_to_end(equation, [from, end], &mut self.x).map(|()| true);
         }
         if is_held {

@@ -148,6 +148,11 @@ trait Steps {
         0.0
     }
 
+    /// A bound of the fourth derivative of every entry over the last part, in its unit per s⁴; infinite where none is known.
+    fn fourth_derivative(&self) -> f64 {
+        f64::INFINITY
+    }
+
     /// Advances `x` over the whole step.
     fn advance_to_end(
         &mut self,
@@ -248,6 +253,12 @@ impl<'a> Stepper<'a> {
             frame.leave(reached, x)?;
         }
         Ok(reached)
+    }
+
+    /// A bound of the fourth derivative of every entry of `x` over the last part, in its unit per s⁴; infinite where none is known,
+    /// as where states are moved onto constraints.
+    pub(crate) fn fourth_derivative(&self) -> f64 {
+        if self.equation.system.constraints.is_empty() { self.steps.fourth_derivative() } else { f64::INFINITY }
     }
 
     /// The estimated errors of a phase that ends at `time`.

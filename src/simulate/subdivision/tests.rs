@@ -41,7 +41,7 @@ fn divide(divisions: u32, moved: usize, motion: &Motion<'_>, times: &[f64]) -> (
             *into = state(moved, motion, time);
             Ok(())
         };
-        subdivision.divide(span, &state(moved, motion, to), &mut state_at).expect("states");
+        subdivision.divide(span, &state(moved, motion, to), f64::INFINITY, &mut state_at).expect("states");
         count
     });
     let counts = counts.collect();
