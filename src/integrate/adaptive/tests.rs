@@ -125,6 +125,29 @@ fn the_interpolant_is_as_exact_as_the_steps() {
     assert!(count > 40, "{count}");
 }
 
+/// Of cos t and a motion by the square of time the fourth derivatives are cos t and 0; it is known where an interpolant is.
+#[test]
+fn the_fourth_derivative_is_bounded() {
+    let mut motion = |time: f64, x: &[f64], rate: &mut [f64]| {
+        rate.copy_from_slice(&[2.0 * (libm::cos(time) - x[0]) - libm::sin(time), 3.0 * time]);
+        Ok(())
+    };
+    let (mut solver, mut x) = (Adaptive::new(1e-10), [1.0, 0.0]);
+    solver.start(0.0, 20.0, &x, &mut motion).expect("a start");
+    let (mut time, mut count) = (0.0, 0);
+    while time < 20.0 {
+        let next = solver.advance([time, 20.0], &mut x, &mut motion).expect("a step");
+        assert!(solver.fourth_derivative().is_infinite(), "none within the step was asked for");
+        solver.interpolate(f64::midpoint(time, next), &mut x, &mut motion).expect("within");
+        let cosines = (0..=64).map(|i| libm::cos(time + f64::from(i) / 64.0 * (next - time)).abs());
+        let largest = cosines.fold(0.0, f64::max);
+        let ratio = solver.fourth_derivative() / largest;
+        assert!((1.0 - 1e-6..1.6).contains(&ratio), "{time} to {next}: {ratio}");
+        (time, count) = (next, count + 1);
+    }
+    assert!(count > 10, "{count}");
+}
+
 /// At times that are farther apart than steps these end, so that no interpolant is needed; between nearer ones they go on.
 #[test]
 fn steps_end_at_requested_times() {

@@ -29,19 +29,30 @@ fn state(moved: usize, motion: &Motion<'_>, time: f64) -> Vec<f64> {
 
 /// Divides parts of a step; the times of the knots of the last one, and how many states each needed.
 fn divide(divisions: u32, moved: usize, motion: &Motion<'_>, times: &[f64]) -> (Vec<f64>, Vec<u32>) {
+    divide_bounded(&|_| f64::INFINITY, divisions, moved, motion, times)
+}
+
+/// The same with bounds of the fourth derivative in the parts from these times on.
+fn divide_bounded(
+    bound: &dyn Fn(f64) -> f64,
+    divisions: u32,
+    moved: usize,
+    motion: &Motion<'_>,
+    times: &[f64],
+) -> (Vec<f64>, Vec<u32>) {
     let model: Box<dyn CloneModel> = registry::generic(&layout("single_arm_2r"));
     let bodies = [Body { mass: 1.0, inertia: 1.0, pose: [0.0; 3], twist: [0.0; 3] }];
     let system = System { bodies: &bodies, reach: REACH, ..System::alone(&*model) };
     let start = state(moved, motion, times[0]);
     let mut subdivision = Subdivision::new(&system, divisions, (times[0], &start));
     let counts = times.windows(2).map(|part| {
-        let (mut count, span @ [_, to]) = (0, [part[0], part[1]]);
+        let (mut count, span @ [from, to]) = (0, [part[0], part[1]]);
         let mut state_at = |time: f64, into: &mut Vec<f64>| {
             count += 1;
             *into = state(moved, motion, time);
             Ok(())
         };
-        subdivision.divide(span, &state(moved, motion, to), f64::INFINITY, &mut state_at).expect("states");
+        subdivision.divide(span, &state(moved, motion, to), bound(from), &mut state_at).expect("states");
         count
     });
     let counts = counts.collect();
@@ -148,6 +159,26 @@ fn parts_that_are_too_short_to_continue() {
             divide(10, 3, &motion, &[before, &[last + short, last + short + 0.005]].concat());
         }
     }
+}
+
+/// A quartic c t⁴ has the fourth derivative 24 c, and the interpolant over h is off by c h⁴/16: by 10⁻⁸ m at most it needs no state.
+/// The bound is for all entries, of which a unit is up to the reach.
+#[test]
+fn parts_of_small_fourth_derivatives_need_no_states() {
+    for (moved, metres) in METRES.iter().enumerate() {
+        // a larger one is compared, and bisected where it is a yaw's or an angle's
+        for (part, states) in [(0.99, 0), (1.01, if *metres < REACH { 1 } else { 3 })] {
+            let c = part * 16e-8 / 0.5_f64.powi(4) / REACH;
+            let motion = |t: f64| [c * (t - 2.0).powi(4), 4.0 * c * (t - 2.0).powi(3)];
+            let (knots, found) = divide_bounded(&|_| 24.0 * c, 10, moved, &motion, &[2.0, 2.5]);
+            assert_eq!((knots.len(), found[0]), (if states < 3 { 2 } else { 3 }, states), "{moved} {part}");
+        }
+    }
+    // those after them are as if the motion began there
+    let sine = |t: f64| [(0.8 * t).sin(), 0.8 * (0.8 * t).cos()];
+    let times = [0.0, 0.01, 0.02, 0.16, 0.30];
+    let (_, states) = divide_bounded(&|from| if from < 0.015 { 0.5 } else { f64::INFINITY }, 10, 1, &sine, &times);
+    assert!(states[..2] == [0, 0] && states[2..].iter().all(|count| *count >= 3), "{states:?}");
 }
 
 /// What no cubic follows is bisected so often and no more, and never into intervals without a length.
