@@ -70,7 +70,7 @@ pub struct Adaptive {
     interpolant: Blocks,
     /// Whether they are found.
     is_dense: bool,
-    /// Of the entries of the interpolant, per s⁴; infinite before it is found.
+    /// A bound of the interpolant's fourth derivatives, per s⁴; infinite before it is found.
     fourth_derivative: f64,
     /// The next step, s.
     step: f64,
