@@ -91,8 +91,8 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
             accelerations(model, control, time + at, stage, slopes, work_slopes, torques)?;
             let x = read_again(&*x).get(..sum.len()).unwrap_or_default();
             let (sum, x, stage) = (split_mut(sum)?, split(x)?, split_mut(stage)?);
-            advance_vectors(sum.positions, stage.positions, x.positions, stage.rates, weight, next);
-            advance_vectors(sum.rates, stage.rates, x.rates, slopes, weight, next);
+            advance(sum.positions, stage.positions, x.positions, stage.rates, weight, next);
+            advance(sum.rates, stage.rates, x.rates, slopes, weight, next);
             advance(sum.work, stage.work, x.work, work_slopes, weight, next);
         }
         let x = read_again(x).get_mut(..sum.len()).unwrap_or_default();
@@ -115,21 +115,4 @@ fn advance<T: Real>(sum: &mut [T], stage: &mut [T], x: &[T], slopes: &[T], weigh
         *sum += weight * *slope;
         *stage = *x + next * *slope;
     }
-}
-
-/// As [`advance`]. Vectors of two are used where four numbers are read before any is written; those of four by the loop itself, and
-/// without vectors there is nothing to gain.
-#[inline]
-fn advance_vectors<T: Real>(sum: &mut [T], stage: &mut [T], x: &[T], slopes: &[T], weight: T, next: T) {
-    if cfg!(any(target_arch = "arm", target_feature = "avx")) {
-        return advance(sum, stage, x, slopes, weight, next);
-    }
-    let ((sums, sum), (stages, stage)) = (sum.as_chunks_mut::<4>(), stage.as_chunks_mut::<4>());
-    let ((xs, x), (fours, slopes)) = (x.as_chunks::<4>(), slopes.as_chunks::<4>());
-    for ((sums, stages), (xs, slopes)) in sums.iter_mut().zip(stages).zip(xs.iter().zip(fours)) {
-        let (mut sum, mut stage) = (*sums, *stages);
-        advance(&mut sum, &mut stage, xs, slopes, weight, next);
-        (*sums, *stages) = (sum, stage);
-    }
-    advance(sum, stage, x, slopes, weight, next);
 }

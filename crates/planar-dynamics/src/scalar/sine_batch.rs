@@ -2,23 +2,17 @@
 
 #![allow(clippy::inline_always, reason = "a call would pass all angles and results through memory")]
 
+mod wide;
+
 use super::portable;
 use super::sine::double::{any_sum, terms};
 use super::sine_lanes::near_f64x4;
-use core::array::from_fn;
-use wide::f64x4;
+
+/// Whether four lanes are one register.
+const WIDE: bool = cfg!(target_feature = "avx");
 
 /// The terms of angles that are no sums: one that is infinite stays so.
 const NO_SUM: f64 = f64::NAN;
-
-/// Whether four lanes are one register. All results then stay in registers, those of far angles are put together in some, and what
-/// follows takes a tenth less; where they are two registers, of which there are fewer, it takes as much more.
-const WIDE: bool = cfg!(target_feature = "avx");
-
-/// Angles at once.
-const COUNT: usize = 8;
-
-type Pairs = [(f64, f64); COUNT];
 
 /// (sine, cosine) of each angle, rad.
 #[inline(always)]
@@ -26,7 +20,10 @@ pub(super) fn sin_cos_all_f64<const N: usize>(angles: [f64; N]) -> [(f64, f64); 
     if N < 3 {
         return portable::sin_cos_all_f64(angles);
     }
-    of_each(angles, || NO_SUM)
+    if WIDE {
+        return wide::of_each(angles, || NO_SUM);
+    }
+    of_each(angles, |a, b| one_by_one(a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3], NO_SUM))
 }
 
 /// (sine, cosine) of sums, rad: `Scalar::sin_cos_of_sums`.
@@ -39,48 +36,39 @@ pub(super) fn sin_cos_of_sums_f64<const N: usize, const K: usize, const M: usize
     if N < 3 {
         return portable::sin_cos_of_sums_f64(sums, some, others);
     }
-    of_each(sums, || terms(some, others))
+    if WIDE {
+        return wide::of_each(sums, || terms(some, others));
+    }
+    of_each(sums, |a, b| one_by_one(a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3], terms(some, others)))
 }
 
-/// (sine, cosine) of each angle, rad; the terms are asked for where one is far.
+/// (sine, cosine) of each angle, rad; `far` is for eight of which any may be far.
 #[inline(always)]
-fn of_each<const N: usize>(angles: [f64; N], terms: impl Fn() -> f64) -> [(f64, f64); N] {
-    if WIDE && N <= COUNT {
-        let pairs = of_some(&angles, 0, terms);
-        return from_fn(|i| pairs.get(i).copied().unwrap_or_default());
-    }
+fn of_each<const N: usize>(angles: [f64; N], far: impl Fn([f64; 4], [f64; 4]) -> Pairs) -> [(f64, f64); N] {
     let mut results = [(0.0, 0.0); N];
     let mut from = 0;
     while from < N {
-        let pairs = of_some(&angles, from, &terms);
+        let angle = |i: usize| angles.get(from + i).copied().unwrap_or(0.0);
+        let [first, second] = [0, 4].map(|i| [angle(i), angle(i + 1), angle(i + 2), angle(i + 3)]);
+        let pairs = if from + 4 < N { eight(first, second, &far) } else { four(first, &far) };
         results.iter_mut().skip(from).zip(pairs).for_each(|(result, pair)| *result = pair);
-        from += COUNT;
+        from += 8;
     }
     results
 }
 
-/// The same from an angle on.
-#[inline(always)]
-fn of_some<const N: usize>(angles: &[f64; N], from: usize, terms: impl Fn() -> f64) -> Pairs {
-    let angle = |i: usize| angles.get(from + i).copied().unwrap_or(0.0);
-    let [first, second] = [0, 4].map(|i| [angle(i), angle(i + 1), angle(i + 2), angle(i + 3)]);
-    if from + 4 < N { eight(first, second, terms) } else { four(first, terms) }
-}
+type Pairs = [(f64, f64); 8];
 
 /// Two vectors at once, whose operations fill each other's waiting times.
 #[inline(always)]
-fn eight(first: [f64; 4], second: [f64; 4], terms: impl Fn() -> f64) -> Pairs {
-    let (mut sines, is_far) = near_f64x4(first.into());
-    let (mut next_sines, is_further) = near_f64x4(second.into());
+fn eight(first: [f64; 4], second: [f64; 4], far: impl Fn([f64; 4], [f64; 4]) -> Pairs) -> Pairs {
+    let ((sine, cosine), is_far) = near_f64x4(first.into());
+    let ((next_sine, next_cosine), is_further) = near_f64x4(second.into());
     if (is_far | is_further).any() {
-        if !WIDE {
-            let ([a, b, c, d], [e, f, g, h]) = (first, second);
-            return one_by_one(a, b, c, d, e, f, g, h, terms());
-        }
-        (sines, next_sines) = (far(first, terms()), far(second, terms()));
+        return far(first, second);
     }
     let [sine, cosine, next_sine, next_cosine] =
-        [sines.0.to_array(), sines.1.to_array(), next_sines.0.to_array(), next_sines.1.to_array()];
+        [sine.to_array(), cosine.to_array(), next_sine.to_array(), next_cosine.to_array()];
     [
         (sine[0], cosine[0]),
         (sine[1], cosine[1]),
@@ -94,31 +82,14 @@ fn eight(first: [f64; 4], second: [f64; 4], terms: impl Fn() -> f64) -> Pairs {
 }
 
 #[inline(always)]
-fn four(angles: [f64; 4], terms: impl Fn() -> f64) -> Pairs {
-    let (mut sines, is_far) = near_f64x4(angles.into());
+fn four(angles: [f64; 4], far: impl Fn([f64; 4], [f64; 4]) -> Pairs) -> Pairs {
+    let ((sine, cosine), is_far) = near_f64x4(angles.into());
     if is_far.any() {
-        if !WIDE {
-            let [a, b, c, d] = angles;
-            return one_by_one(a, b, c, d, 0.0, 0.0, 0.0, 0.0, terms());
-        }
-        sines = far(angles, terms());
+        return far(angles, [0.0; 4]);
     }
-    let [sine, cosine] = [sines.0.to_array(), sines.1.to_array()];
+    let [sine, cosine] = [sine.to_array(), cosine.to_array()];
     let none = (0.0, 0.0);
     [(sine[0], cosine[0]), (sine[1], cosine[1]), (sine[2], cosine[2]), (sine[3], cosine[3]), none, none, none, none]
-}
-
-/// (sines, cosines) of angles any of which may be far.
-#[inline(always)]
-fn far([a, b, c, d]: [f64; 4], terms: f64) -> (f64x4, f64x4) {
-    let [a, b, c, d] = [one(a, terms), one(b, terms), one(c, terms), one(d, terms)];
-    ([a.0, b.0, c.0, d.0].into(), [a.1, b.1, c.1, d.1].into())
-}
-
-#[cold]
-#[inline(never)]
-fn one(angle: f64, terms: f64) -> (f64, f64) {
-    any_sum(angle, terms).into_tuple()
 }
 
 /// The angles are not passed as arrays, which would keep them in memory wherever this may be called.
