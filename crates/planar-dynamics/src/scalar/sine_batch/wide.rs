@@ -27,23 +27,24 @@ pub(super) fn of_each<const N: usize>(angles: [f64; N], terms: impl Fn() -> f64)
     results
 }
 
-/// The same from an angle on: two vectors at once, whose operations fill each other's waiting times, or the last four.
+/// The same from an angle on.
 #[inline(always)]
 fn of_some<const N: usize>(angles: &[f64; N], from: usize, terms: impl Fn() -> f64) -> Pairs {
     let angle = |i: usize| angles.get(from + i).copied().unwrap_or(0.0);
     let [first, second] = [0, 4].map(|i| [angle(i), angle(i + 1), angle(i + 2), angle(i + 3)]);
-    let (mut sines, mut is_far) = near_f64x4(first.into());
-    let mut next = (f64x4::ZERO, f64x4::ZERO);
-    if from + 4 < N {
-        let (sines, is_further) = near_f64x4(second.into());
-        (next, is_far) = (sines, is_far | is_further);
-    }
-    if is_far.any() {
-        let terms = terms();
-        (sines, next) = (far(first, terms), if from + 4 < N { far(second, terms) } else { next });
+    if from + 4 < N { eight(first, second, terms) } else { four(first, terms) }
+}
+
+/// Two vectors at once, whose operations fill each other's waiting times.
+#[inline(always)]
+fn eight(first: [f64; 4], second: [f64; 4], terms: impl Fn() -> f64) -> Pairs {
+    let (mut sines, is_far) = near_f64x4(first.into());
+    let (mut next_sines, is_further) = near_f64x4(second.into());
+    if (is_far | is_further).any() {
+        (sines, next_sines) = (far(first, terms()), far(second, terms()));
     }
     let [sine, cosine, next_sine, next_cosine] =
-        [sines.0.to_array(), sines.1.to_array(), next.0.to_array(), next.1.to_array()];
+        [sines.0.to_array(), sines.1.to_array(), next_sines.0.to_array(), next_sines.1.to_array()];
     [
         (sine[0], cosine[0]),
         (sine[1], cosine[1]),
@@ -54,6 +55,17 @@ fn of_some<const N: usize>(angles: &[f64; N], from: usize, terms: impl Fn() -> f
         (next_sine[2], next_cosine[2]),
         (next_sine[3], next_cosine[3]),
     ]
+}
+
+#[inline(always)]
+fn four(angles: [f64; 4], terms: impl Fn() -> f64) -> Pairs {
+    let (mut sines, is_far) = near_f64x4(angles.into());
+    if is_far.any() {
+        sines = far(angles, terms());
+    }
+    let [sine, cosine] = [sines.0.to_array(), sines.1.to_array()];
+    let none = (0.0, 0.0);
+    [(sine[0], cosine[0]), (sine[1], cosine[1]), (sine[2], cosine[2]), (sine[3], cosine[3]), none, none, none, none]
 }
 
 /// (sines, cosines) of angles any of which may be far.
