@@ -68,10 +68,8 @@ pub struct Adaptive {
     stages: Blocks,
     /// The coefficients of the interpolant over the last step, one after the other.
     interpolant: Blocks,
-    /// Whether they are found.
-    is_dense: bool,
-    /// A bound of the interpolant's fourth derivatives, per s⁴; infinite before it is found.
-    fourth_derivative: f64,
+    /// A bound of its fourth derivatives, per s⁴; `None` before it is found.
+    fourth_derivative: Option<f64>,
     /// The next step, s.
     step: f64,
     /// The same before it is shortened to end at `end`.
@@ -116,8 +114,7 @@ impl Adaptive {
             rate: Vec::new(),
             stages: Vec::new(),
             interpolant: Vec::new(),
-            is_dense: false,
-            fourth_derivative: f64::INFINITY,
+            fourth_derivative: None,
             step: 0.0,
             next_step: 0.0,
             attempts: 0,
@@ -196,7 +193,7 @@ impl Adaptive {
     /// was asked for.
     #[must_use]
     pub fn fourth_derivative(&self) -> f64 {
-        self.fourth_derivative
+        self.fourth_derivative.unwrap_or(f64::INFINITY)
     }
 
     /// The number of steps taken or rejected so far.
@@ -265,7 +262,7 @@ impl Adaptive {
             self.pair = self.pairs[usize::from(!lands)];
             self.attempts += 1;
             self.stages[..blocks].copy_from_slice(&self.rate);
-            (self.is_dense, self.fourth_derivative) = (false, f64::INFINITY);
+            self.fourth_derivative = None;
             let stages = (1..self.pair.stages).try_for_each(|stage| self.add_stage(start, self.step, 1, stage, motion));
             // a step that is too long can leave what the motion is defined for; whether a shorter one does is seen then
             let error = match stages {
@@ -324,7 +321,7 @@ impl Adaptive {
 
     /// Evaluates the stages of the interpolant over the last step, and from all its coefficients, once.
     fn find_interpolant(&mut self, motion: &mut dyn Motion) -> Result<(), Error> {
-        if self.is_dense {
+        if self.fourth_derivative.is_some() {
             return Ok(());
         }
         let [start, end] = self.span;
@@ -338,8 +335,7 @@ impl Adaptive {
         for (row, coefficients) in self.pair.interpolant.iter().zip(self.interpolant.chunks_exact_mut(blocks)) {
             sum(row, &self.stages, coefficients);
         }
-        self.is_dense = true;
-        self.fourth_derivative = fourth_derivative(end - start, self.interpolant.chunks_exact(blocks));
+        self.fourth_derivative = Some(fourth_derivative(end - start, self.interpolant.chunks_exact(blocks)));
         Ok(())
     }
 }

@@ -179,12 +179,11 @@ impl Companion {
 
     /// Advances it; returns whether it is as far as the first.
     fn advance(&mut self, equation: &mut Equation<'_>, span @ [_, end]: [f64; 2]) -> Result<bool, Error> {
-        let is_held = equation.control.held_steps().is_some();
         if self.order.is_none() {
             let from = self.pending.take().map_or(span[0], |[from, _]| from);
             return self.steps.advance_to_end(equation, [from, end], &mut self.x).map(|()| true);
         }
-        if is_held {
+        if equation.control.held_steps().is_some() {
             return self.halves(equation, span).map(|()| true);
         }
         match self.pending.take() {

@@ -7,6 +7,7 @@ mod wide;
 use super::portable;
 use super::sine::double::{any_sum, terms};
 use super::sine_lanes::near_f64x4;
+use ::wide::f64x4;
 
 /// Whether four lanes are one register.
 const WIDE: bool = cfg!(target_feature = "avx");
@@ -52,12 +53,15 @@ fn of_each<const N: usize>(angles: [f64; N], far: impl Fn([f64; 4], [f64; 4]) ->
         let [first, second] = [0, 4].map(|i| [angle(i), angle(i + 1), angle(i + 2), angle(i + 3)]);
         let pairs = if from + 4 < N { eight(first, second, &far) } else { four(first, &far) };
         results.iter_mut().skip(from).zip(pairs).for_each(|(result, pair)| *result = pair);
-        from += 8;
+        from += COUNT;
     }
     results
 }
 
-type Pairs = [(f64, f64); 8];
+/// Angles at once.
+const COUNT: usize = 8;
+
+type Pairs = [(f64, f64); COUNT];
 
 /// Two vectors at once, whose operations fill each other's waiting times.
 #[inline(always)]
@@ -67,6 +71,21 @@ fn eight(first: [f64; 4], second: [f64; 4], far: impl Fn([f64; 4], [f64; 4]) -> 
     if (is_far | is_further).any() {
         return far(first, second);
     }
+    pairs((sine, cosine), (next_sine, next_cosine))
+}
+
+#[inline(always)]
+fn four(angles: [f64; 4], far: impl Fn([f64; 4], [f64; 4]) -> Pairs) -> Pairs {
+    let ((sine, cosine), is_far) = near_f64x4(angles.into());
+    if is_far.any() {
+        return far(angles, [0.0; 4]);
+    }
+    pairs((sine, cosine), (f64x4::ZERO, f64x4::ZERO))
+}
+
+/// (sine, cosine) of each lane of two vectors.
+#[inline(always)]
+fn pairs((sine, cosine): (f64x4, f64x4), (next_sine, next_cosine): (f64x4, f64x4)) -> Pairs {
     let [sine, cosine, next_sine, next_cosine] =
         [sine.to_array(), cosine.to_array(), next_sine.to_array(), next_cosine.to_array()];
     [
@@ -79,17 +98,6 @@ fn eight(first: [f64; 4], second: [f64; 4], far: impl Fn([f64; 4], [f64; 4]) -> 
         (next_sine[2], next_cosine[2]),
         (next_sine[3], next_cosine[3]),
     ]
-}
-
-#[inline(always)]
-fn four(angles: [f64; 4], far: impl Fn([f64; 4], [f64; 4]) -> Pairs) -> Pairs {
-    let ((sine, cosine), is_far) = near_f64x4(angles.into());
-    if is_far.any() {
-        return far(angles, [0.0; 4]);
-    }
-    let [sine, cosine] = [sine.to_array(), cosine.to_array()];
-    let none = (0.0, 0.0);
-    [(sine[0], cosine[0]), (sine[1], cosine[1]), (sine[2], cosine[2]), (sine[3], cosine[3]), none, none, none, none]
 }
 
 /// The angles are not passed as arrays, which would keep them in memory wherever this may be called.

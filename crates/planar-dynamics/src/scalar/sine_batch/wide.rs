@@ -1,14 +1,9 @@
 //! The same where four lanes are one register: those of far angles are put together in some, so that they meet the others' in
 //! registers. What follows then takes a tenth less; where four lanes are two registers, of which there are fewer, it takes more.
 
-use super::{any_sum, near_f64x4};
+use super::{COUNT, Pairs, any_sum, near_f64x4, pairs};
 use core::array::from_fn;
 use wide::f64x4;
-
-/// Angles at once.
-const COUNT: usize = 8;
-
-type Pairs = [(f64, f64); COUNT];
 
 /// (sine, cosine) of each angle, rad; the terms are asked for where one is far.
 #[inline(always)]
@@ -27,7 +22,8 @@ pub(super) fn of_each<const N: usize>(angles: [f64; N], terms: impl Fn() -> f64)
     results
 }
 
-/// The same from an angle on.
+/// The same from an angle on. Its first lines are also in the loop for two lanes: as a function of both they make a Runge-Kutta step there
+/// 300 instructions longer.
 #[inline(always)]
 fn of_some<const N: usize>(angles: &[f64; N], from: usize, terms: impl Fn() -> f64) -> Pairs {
     let angle = |i: usize| angles.get(from + i).copied().unwrap_or(0.0);
@@ -43,18 +39,7 @@ fn eight(first: [f64; 4], second: [f64; 4], terms: impl Fn() -> f64) -> Pairs {
     if (is_far | is_further).any() {
         (sines, next_sines) = (far(first, terms()), far(second, terms()));
     }
-    let [sine, cosine, next_sine, next_cosine] =
-        [sines.0.to_array(), sines.1.to_array(), next_sines.0.to_array(), next_sines.1.to_array()];
-    [
-        (sine[0], cosine[0]),
-        (sine[1], cosine[1]),
-        (sine[2], cosine[2]),
-        (sine[3], cosine[3]),
-        (next_sine[0], next_cosine[0]),
-        (next_sine[1], next_cosine[1]),
-        (next_sine[2], next_cosine[2]),
-        (next_sine[3], next_cosine[3]),
-    ]
+    pairs(sines, next_sines)
 }
 
 #[inline(always)]
@@ -63,9 +48,7 @@ fn four(angles: [f64; 4], terms: impl Fn() -> f64) -> Pairs {
     if is_far.any() {
         sines = far(angles, terms());
     }
-    let [sine, cosine] = [sines.0.to_array(), sines.1.to_array()];
-    let none = (0.0, 0.0);
-    [(sine[0], cosine[0]), (sine[1], cosine[1]), (sine[2], cosine[2]), (sine[3], cosine[3]), none, none, none, none]
+    pairs(sines, (f64x4::ZERO, f64x4::ZERO))
 }
 
 /// (sines, cosines) of angles any of which may be far.
