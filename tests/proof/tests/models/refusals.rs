@@ -375,3 +375,18 @@ fn a_law_answers_to_the_estimate_and_the_estimator_is_told() {
     estimated.joint_torques(0.0, &Model::<f64>::default() as &AnyModel<f64>, &STATE, &mut torques).expect("torques");
     assert_eq!((torques, estimated.estimator.0.as_slice()), ([10.0; JOINTS], &[10.0; JOINTS][..]));
 }
+
+/// Without a trajectory of all joints there are no torques, wherever it ends.
+#[test]
+fn a_trajectory_of_fewer_joints_is_refused() {
+    let angles = [1.0; JOINTS];
+    for length in 0..JOINTS {
+        let mut law = ProportionalDerivative {
+            trajectory: ConstantSetpoint { angles: &angles[..length] },
+            proportional_gain: &[10.0; JOINTS],
+            derivative_gain: &[2.0; JOINTS],
+        };
+        let found = law.joint_torques(0.0, &Model::<f64>::default() as &AnyModel<f64>, &STATE, &mut [0.0; JOINTS]);
+        wrong_length(&found, "trajectory", [JOINTS, length]);
+    }
+}
