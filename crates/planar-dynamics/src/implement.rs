@@ -319,6 +319,14 @@ macro_rules! implement_dynamics {
             if !is_regular_and_finite(result.smallest_pivot, [&base[1..], &of_joints]) {
                 *joints = of_joints;
                 let [alpha, ax, ay] = base;
+                // copies: what a function borrows is in memory, where it could have been in registers, unless those are few
+                let mut copies = (*angles, *rates, *torques, of_joints);
+                let (angles, rates, torques, joints) = if cfg!(target_arch = "arm") {
+                    (angles, rates, torques, joints)
+                } else {
+                    *joints = [T::ZERO; JOINTS];
+                    (&copies.0, &copies.1, &copies.2, &mut copies.3)
+                };
                 let wrenches: &[&[T]] = &[$($slice),*];
                 let pivot = result.smallest_pivot;
                 let found = objection::to_accelerations(angles, rates, torques, joints, wrenches, pivot, alpha, ax, ay);

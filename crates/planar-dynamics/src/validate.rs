@@ -155,7 +155,9 @@ pub fn is_regular<T: Real>(smallest: T) -> bool {
 
 /// Whether the pivot is regular and all numbers are finite: [`is_regular`] and [`all_finite`], or, where numbers are
 /// compared one by one, a single comparison, as 0 x is 0 where x is finite, else NaN.
-#[inline]
+#[cfg_attr(target_arch = "arm", inline)]
+#[cfg_attr(not(target_arch = "arm"), inline(always))]
+#[allow(clippy::inline_always, reason = "what it borrows would be in memory")]
 pub fn is_regular_and_finite<T: Real, const N: usize>(smallest: T, slices: [&[T]; N]) -> bool {
     if cfg!(not(target_arch = "arm")) {
         return is_regular(smallest) && all_finite(slices);

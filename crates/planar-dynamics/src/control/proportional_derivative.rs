@@ -25,6 +25,12 @@ impl<T: Real, M: Model<T> + ?Sized, R: Trajectory<T>> Control<T, M> for Proporti
         let expected = torques.len();
         length("proportional_gain", expected, self.proportional_gain.len())?;
         length("derivative_gain", expected, self.derivative_gain.len())?;
+        // with the last joint, all are there: where a compiler sees that, it computes them in vectors
+        let missing = |joint: &usize| self.trajectory.joint(*joint, time).is_none();
+        if cfg!(not(target_arch = "arm")) && expected.checked_sub(1).is_some_and(|last| missing(&last)) {
+            let found = (0..expected).find(missing).unwrap_or_default();
+            return Err(Error::Length { quantity: "trajectory", expected, found });
+        }
         let gains = self.proportional_gain.iter().zip(self.derivative_gain);
         let joints = state.joint_angles.iter().zip(state.joint_rates).zip(gains);
         // a counter of `enumerate` could overflow, as far as a compiler sees that checks it

@@ -10,6 +10,10 @@ use crate::scalar::Real;
 use crate::state::{StateVector, split, split_mut};
 use crate::validate::length;
 
+/// The length of vectors that a robot's step has of its own: numbers of a vector whose length the compiler knows are then in
+/// registers, as in a loop written by hand. None where registers are few.
+const OWN: usize = if cfg!(target_arch = "arm") { 0 } else { 32 };
+
 /// ẋ = f(t, x) by fourth-order Runge–Kutta steps; the global error is O(step⁴).
 #[derive(Debug)]
 pub struct RungeKutta4<'a, T> {
@@ -64,11 +68,13 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
 
     /// As [`step`](Self::step) of [`derivative`](crate::formulation::derivative), with its bits: a step of a robot and free bodies
     /// under a control law. The slopes of the positions are not copied, they are the rates of the stage. `torques` (joints) holds
-    /// those of the last stage afterwards.
+    /// those of the last stage afterwards. Vectors of up to 32 numbers are on the stack instead of in the workspace, except on Arm.
     ///
     /// # Errors
     /// As [`step`](Self::step).
-    #[inline]
+    #[cfg_attr(target_arch = "arm", inline)]
+    #[cfg_attr(not(target_arch = "arm"), inline(always))]
+    #[allow(clippy::inline_always, reason = "the caller knows the lengths")]
     pub fn robot_step<M: Model<T> + ?Sized>(
         &mut self,
         model: &M,
@@ -78,8 +84,10 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
         x: &mut [T],
         torques: &mut [T],
     ) -> Result<(), Error> {
-        let Self { slope, sum, stage } = self;
-        length("state vector", slope.len(), x.len())?;
+        length("state vector", self.slope.len(), x.len())?;
+        let mut own = [[T::ZERO; OWN]; 3];
+        let [slope, sum, stage] = own.each_mut().map(|vector| vector.get_mut(..x.len()).filter(|_| OWN > 0));
+        let [slope, sum, stage] = [slope.unwrap_or(self.slope), sum.unwrap_or(self.sum), stage.unwrap_or(self.stage)];
         // number by number: where the compiler knows that they are zeros and copies, it calls functions for memory, which take
         // up to ten instructions for each
         let zero = read_again(T::ZERO);

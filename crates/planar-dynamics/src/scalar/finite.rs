@@ -7,13 +7,20 @@ use super::real::Real;
 /// what a function borrows is in memory, where it could have been in registers.
 ///
 /// A processor with vectors compares several at once, and would wait for a sum. One without adds the products.
-#[inline]
+#[cfg_attr(target_arch = "arm", inline)]
+#[cfg_attr(not(target_arch = "arm"), inline(always))]
 #[must_use]
+#[allow(clippy::inline_always, reason = "a call, see above")]
 #[allow(clippy::needless_bitwise_bool, reason = "a branch per number costs more than the comparison")]
 pub fn all_finite<T: Real, const N: usize>(slices: [&[T]; N]) -> bool {
     if cfg!(not(target_arch = "arm")) {
-        let each = |all, values: &[T]| values.iter().fold(all, |all, value| all & (*value * T::ZERO == T::ZERO));
-        return slices.into_iter().fold(true, each);
+        let mut all = true;
+        for values in &slices {
+            for value in *values {
+                all &= *value * T::ZERO == T::ZERO;
+            }
+        }
+        return all;
     }
     let products = |sum, values: &[T]| {
         values.iter().fold(sum, |sum: Option<T>, value| {
