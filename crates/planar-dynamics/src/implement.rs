@@ -317,11 +317,11 @@ macro_rules! implement_dynamics {
             let (base, of_joints) = (result.base_acceleration, result.joint_accelerations);
             // the angular acceleration of the base is a part of the first joint's
             if !is_regular_and_finite(result.smallest_pivot, [&base[1..], &of_joints]) {
-                *joints = of_joints;
                 let [alpha, ax, ay] = base;
                 // copies: what a function borrows is in memory, where it could have been in registers, unless those are few
                 let mut copies = (*angles, *rates, *torques, of_joints);
                 let (angles, rates, torques, joints) = if cfg!(target_arch = "arm") {
+                    *joints = of_joints;
                     (angles, rates, torques, joints)
                 } else {
                     *joints = [T::ZERO; JOINTS];
