@@ -40,8 +40,14 @@ macro_rules! lanes {
 
             #[inline]
             fn sin_cos(self) -> (Self, Self) {
+                let [pair] = Self::sin_cos_all([self]);
+                pair
+            }
+
+            #[inline]
+            fn sin_cos_all<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
                 // one that is infinite is no sum of finite angles
-                all::$sin_cos(self, || self * Self::ZERO)
+                all::$sin_cos(angles, || Self::constant(f64::NAN))
             }
 
             #[inline]
@@ -51,7 +57,7 @@ macro_rules! lanes {
                 others: &[Self; M],
             ) -> [(Self, Self); N] {
                 let terms = || some.iter().chain(others).fold(Self::ZERO, |sum, angle| sum + *angle * Self::ZERO);
-                sums.map(|sum| all::$sin_cos(sum, terms))
+                all::$sin_cos(sums, terms)
             }
 
             #[inline]

@@ -2,15 +2,24 @@
 
 use crate::scalar::Scalar;
 use crate::status::Status;
+use core::hint::black_box;
 
 /// The scalar of a batch: `f64`, or one that becomes vectors.
 pub trait Number: Scalar {
+    /// Whether a status found with it is the instance's; else it is that there is none, or may be one, other than `Done`.
+    const DECIDES: bool;
+
     /// The number.
     fn value(self) -> f64;
 }
 
 /// One row per number, one column per instance of the block.
 pub type Rows<const R: usize, const B: usize> = [[f64; B]; R];
+
+/// Numbers that begin a line of the cache: vectors as long as a line are then in one each.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub struct Lines<T>(pub T);
 
 /// Where the instances of a block are in the matrices of a batch.
 #[derive(Clone, Copy, Debug)]
@@ -45,16 +54,41 @@ impl Place {
         }
     }
 
-    /// As [`Place::load`], where an instance has a matrix.
+    /// Rows of a block: those of the matrix itself, or copies where it has fewer instances.
     #[inline(always)]
-    pub fn load_matrix<const R: usize, const C: usize, const B: usize>(
+    pub fn rows<'a, const R: usize, const B: usize>(
         self,
-        matrix: &[f64],
-        rows: &mut [Rows<C, B>; R],
-    ) {
-        for (rows, matrix) in rows.iter_mut().zip(matrix.chunks_exact(C * self.columns)) {
-            self.load(matrix, rows);
+        matrix: &'a [f64],
+        copies: &'a mut Option<Rows<R, B>>,
+    ) -> [&'a [f64; B]; R] {
+        let mut rows = [const { &[0.0; B] }; R];
+        if self.len < B {
+            let copies = copies.insert([[0.0; B]; R]);
+            self.load(matrix, copies);
+            rows = copies.each_ref();
+        } else {
+            for (row, values) in rows.iter_mut().zip(matrix.chunks_exact(self.columns)) {
+                if let Some(all) = values.get(self.from..).and_then(<[f64]>::first_chunk) {
+                    *row = all;
+                }
+            }
         }
+        // of a choice of places, the compiler does not see that results are not among them
+        black_box(rows)
+    }
+
+    /// As [`Place::rows`], where an instance has a matrix.
+    #[inline(always)]
+    pub fn matrix_rows<'a, const R: usize, const C: usize, const B: usize>(
+        self,
+        matrix: &'a [f64],
+        copies: &'a mut [Option<Rows<C, B>>; R],
+    ) -> [[&'a [f64; B]; C]; R] {
+        let mut rows = [[const { &[0.0; B] }; C]; R];
+        for ((rows, copies), matrix) in rows.iter_mut().zip(copies).zip(matrix.chunks_exact(C * self.columns)) {
+            *rows = self.rows(matrix, copies);
+        }
+        rows
     }
 
     /// Copies rows of a block to those of a matrix, for the instances that are done.
@@ -101,12 +135,18 @@ impl Place {
 /// The numbers of an instance.
 #[inline(always)]
 #[must_use]
-pub fn take<T: Number, const R: usize, const B: usize>(rows: &Rows<R, B>, instance: usize) -> [T; R] {
-    let mut numbers = [T::ZERO; R];
-    for (number, row) in numbers.iter_mut().zip(rows) {
-        *number = T::constant(row[instance]);
-    }
-    numbers
+pub fn take<T: Number, const R: usize, const B: usize>(rows: &[&[f64; B]; R], instance: usize) -> [T; R] {
+    rows.map(|row| T::constant(row[instance]))
+}
+
+/// As [`take`], of a matrix.
+#[inline(always)]
+#[must_use]
+pub fn take_matrix<T: Number, const R: usize, const C: usize, const B: usize>(
+    rows: &[[&[f64; B]; C]; R],
+    instance: usize,
+) -> [[T; C]; R] {
+    rows.map(|rows| take(&rows, instance))
 }
 
 /// Sets the numbers of an instance.
@@ -129,16 +169,10 @@ pub fn put_matrix<T: Number, const R: usize, const C: usize, const B: usize>(
     }
 }
 
-/// What the statuses of a block are found from.
+/// What the statuses of a block are found from: 0 for an instance that is done, 1 for a singular one, else NaN.
 #[derive(Clone, Copy, Debug)]
-pub struct Checks<const B: usize> {
-    /// Sums of [`zeros`] of what is given.
-    given: [f64; B],
-    /// Smallest pivots.
-    pivots: [f64; B],
-    /// Sums of [`zeros`] of what is computed.
-    computed: [f64; B],
-}
+#[repr(align(64))]
+pub struct Checks<const B: usize>([f64; B]);
 
 /// The statuses of a block.
 #[derive(Clone, Copy, Debug)]
@@ -152,35 +186,30 @@ impl<const B: usize> Checks<B> {
     #[must_use]
     #[allow(clippy::new_without_default, reason = "for generated code alone")]
     pub const fn new() -> Self {
-        Self { given: [0.0; B], pivots: [0.0; B], computed: [0.0; B] }
+        Self([0.0; B])
     }
 
-    /// Of an instance.
+    /// Of an instance, from sums of [`zeros`] of what is given and of what is computed, and its smallest pivot.
     #[inline(always)]
     pub fn put<T: Number>(&mut self, instance: usize, given: T, pivot: T, computed: T) {
-        self.given[instance] = given.value();
-        self.pivots[instance] = pivot.value();
-        self.computed[instance] = computed.value();
+        let of_result = if pivot.value() > 8.0 * f64::EPSILON { computed.value() } else { 1.0 };
+        self.0[instance] = given.value() + of_result;
     }
 
     /// The statuses of all instances.
     #[inline(always)]
     #[must_use]
-    #[allow(clippy::needless_bitwise_bool, reason = "a loop with a branch does not become vectors")]
     pub fn statuses(&self) -> Statuses<B> {
-        let Self { given, pivots, computed } = self;
-        let limit = 8.0 * f64::EPSILON;
         let mut failed = 0_u64;
-        for instance in 0..B {
-            let is_done = (pivots[instance] > limit) & (given[instance] + computed[instance] == 0.0);
-            failed += u64::from(!is_done);
+        for check in &self.0 {
+            failed += u64::from(*check != 0.0);
         }
         let mut each = [Status::Done; B];
         if failed > 0 {
-            for (instance, status) in each.iter_mut().enumerate() {
-                *status = match (given[instance] == 0.0, pivots[instance] > limit, computed[instance] == 0.0) {
-                    (true, true, true) => Status::Done,
-                    (true, false, _) => Status::Singular,
+            for (status, check) in each.iter_mut().zip(&self.0) {
+                *status = match *check {
+                    0.0 => Status::Done,
+                    1.0 => Status::Singular,
                     _ => Status::NotFinite,
                 };
             }
@@ -189,18 +218,22 @@ impl<const B: usize> Checks<B> {
     }
 }
 
-/// 0 where all numbers are finite, else NaN.
+/// 0 where all numbers are finite, else NaN; NaN too for a scalar that does not decide where their sum is not finite.
 #[inline(always)]
 #[must_use]
 pub fn zeros<T: Number, const N: usize>(numbers: &[T; N]) -> T {
-    numbers.iter().fold(T::ZERO, |sum, number| sum + *number * T::ZERO)
+    if T::DECIDES {
+        numbers.iter().fold(T::ZERO, |sum, number| sum + *number * T::ZERO)
+    } else {
+        numbers.iter().fold(T::ZERO, |sum, number| sum + *number) * T::ZERO
+    }
 }
 
-/// One of two numbers: the first where a sum of [`zeros`] is 0.
+/// One of two numbers: the first where a sum of [`zeros`] is 0, or where the scalar does not decide.
 #[inline(always)]
 #[must_use]
 pub fn where_finite<T: Number>(zeros: T, number: T, other: T) -> T {
-    if zeros.value() == 0.0 { number } else { other }
+    if !T::DECIDES || zeros.value() == 0.0 { number } else { other }
 }
 
 /// As [`zeros`], of a matrix.

@@ -25,13 +25,18 @@ pub trait Instructions {
 }
 
 impl Number for f64 {
+    const DECIDES: bool = true;
+
     #[inline(always)]
     fn value(self) -> f64 {
         self
     }
 }
 
+/// What has no result here is computed again, one by one.
 impl<const FUSED: bool> Number for Lane<FUSED> {
+    const DECIDES: bool = false;
+
     #[inline(always)]
     fn value(self) -> f64 {
         self.0

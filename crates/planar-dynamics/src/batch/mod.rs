@@ -53,6 +53,7 @@ pub use model::BatchModel;
 #[doc(hidden)]
 pub mod generated {
     pub use super::block::{
-        Checks, Number, Place, Rows, Statuses, put, put_matrix, take, where_finite, zeros, zeros_of_matrix,
+        Checks, Lines, Number, Place, Rows, Statuses, put, put_matrix, take, take_matrix, where_finite, zeros,
+        zeros_of_matrix,
     };
 }

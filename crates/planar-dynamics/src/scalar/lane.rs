@@ -52,36 +52,29 @@ impl<const FUSED: bool> Scalar for Lane<FUSED> {
 
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        let angle = if self.0.abs() > DOUBLE.furthest { Self(f64::NAN) } else { self };
-        let round = Self(DOUBLE.round);
-        let shifted = angle.mul_add(Self(FRAC_2_PI), round);
-        let quarters = shifted - round;
-        let [first, second, third] = DOUBLE.quarter_turn.map(|part| Self(-part));
-        let x = quarters.mul_add(third, quarters.mul_add(second, quarters.mul_add(first, angle)));
-        let z = x * x;
-        let sine = (x * z).mul_add(polynomial(z, DOUBLE.sine), x);
-        let cosine = z.mul_add(z.mul_add(polynomial(z, DOUBLE.cosine), Self(-0.5)), Self::ONE);
-        // exchanged in odd quadrants
-        let (sine, cosine, quadrant) = (sine.0.to_bits(), cosine.0.to_bits(), shifted.0.to_bits());
-        let exchange = (sine ^ cosine) & (quadrant & 1).wrapping_neg();
-        let sign = |quadrant: u64| (quadrant & 2) << 62;
-        let sine = sine ^ exchange ^ sign(quadrant);
-        let cosine = cosine ^ exchange ^ sign(quadrant.wrapping_add(1));
-        (Self(f64::from_bits(sine)), Self(f64::from_bits(cosine)))
+        let [pair] = together([self]);
+        pair
     }
 
     /// Without a loop up to 24 angles: a loop in a loop would not become vectors.
     #[inline(always)]
     fn sin_cos_all<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
         let mut pairs = [(Self::ZERO, Self::ONE); N];
+        let angle = |i: usize| angles.get(i).copied().unwrap_or(Self::ZERO);
         macro_rules! without_loop {
             ($($i:literal)*) => {
-                $(if let (Some(pair), Some(angle)) = (pairs.get_mut($i), angles.get($i)) {
-                    *pair = angle.sin_cos();
+                $(if $i < N {
+                    // of angles that are not there, the compiler computes nothing
+                    let four = together([angle($i), angle($i + 1), angle($i + 2), angle($i + 3)]);
+                    for k in 0..4 {
+                        if let Some(pair) = pairs.get_mut($i + k) {
+                            *pair = four[k];
+                        }
+                    }
                 })*
             };
         }
-        without_loop!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23);
+        without_loop!(0 4 8 12 16 20);
         let mut i = 24;
         while let (Some(pair), Some(angle)) = (pairs.get_mut(i), angles.get(i)) {
             *pair = angle.sin_cos();
@@ -113,8 +106,37 @@ impl<const FUSED: bool> Scalar for Lane<FUSED> {
     }
 }
 
-/// By Horner's rule.
+/// (sine, cosine) of some angles, whose operations fill each other's waiting times.
 #[inline(always)]
-fn polynomial<const FUSED: bool>(z: Lane<FUSED>, [others @ .., last]: [f64; 6]) -> Lane<FUSED> {
-    others.iter().rev().fold(Lane(last), |sum, coefficient| z.mul_add(sum, Lane(*coefficient)))
+fn together<const FUSED: bool, const K: usize>(angles: [Lane<FUSED>; K]) -> [(Lane<FUSED>, Lane<FUSED>); K] {
+    let round = Lane(DOUBLE.round);
+    let angles = angles.map(|angle| if angle.0.abs() > DOUBLE.furthest { Lane(f64::NAN) } else { angle });
+    let shifted = angles.map(|angle| angle.mul_add(Lane(FRAC_2_PI), round));
+    let mut x = angles;
+    for part in DOUBLE.quarter_turn {
+        for (x, shifted) in x.iter_mut().zip(shifted) {
+            *x = (shifted - round).mul_add(Lane(-part), *x);
+        }
+    }
+    let z = x.map(|x| x * x);
+    let (mut sines, mut cosines) = ([Lane(DOUBLE.sine[5]); K], [Lane(DOUBLE.cosine[5]); K]);
+    // by Horner's rule
+    for i in (0..5).rev() {
+        for k in 0..K {
+            sines[k] = z[k].mul_add(sines[k], Lane(DOUBLE.sine[i]));
+            cosines[k] = z[k].mul_add(cosines[k], Lane(DOUBLE.cosine[i]));
+        }
+    }
+    core::array::from_fn(|k| {
+        let (x, z) = (x[k], z[k]);
+        let sine = (x * z).mul_add(sines[k], x);
+        let cosine = z.mul_add(z.mul_add(cosines[k], Lane(-0.5)), Lane(1.0));
+        // exchanged in odd quadrants
+        let (sine, cosine, quadrant) = (sine.0.to_bits(), cosine.0.to_bits(), shifted[k].0.to_bits());
+        let exchange = (sine ^ cosine) & (quadrant & 1).wrapping_neg();
+        let sign = |quadrant: u64| (quadrant & 2) << 62;
+        let sine = sine ^ exchange ^ sign(quadrant);
+        let cosine = cosine ^ exchange ^ sign(quadrant.wrapping_add(1));
+        (Lane(f64::from_bits(sine)), Lane(f64::from_bits(cosine)))
+    })
 }

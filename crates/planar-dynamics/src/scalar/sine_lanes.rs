@@ -76,23 +76,35 @@ pub(crate) mod all {
         ($name:ident, $near:ident, $far:ident, $lanes:ident, $sines:ident) => {
             /// (sine, cosine) of the angles in the lanes, rad. `terms` are 0 where the angles are sums of finite ones: beyond
             /// the largest number, they are then that number.
-            #[inline]
-            pub(crate) fn $name(angle: $lanes, terms: impl FnOnce() -> $lanes) -> ($lanes, $lanes) {
-                let (pair, is_far) = $near(angle);
-                if is_far.any() { $far(angle, terms()) } else { pair }
+            #[inline(always)]
+            pub(crate) fn $name<const N: usize>(
+                angles: [$lanes; N],
+                terms: impl FnOnce() -> $lanes,
+            ) -> [($lanes, $lanes); N] {
+                let mut pairs = [($lanes::ZERO, $lanes::ONE); N];
+                let mut some_are_far = $lanes::ZERO;
+                // one test for all: between tests, the operations of one would wait for each other
+                for (pair, angle) in pairs.iter_mut().zip(angles) {
+                    let is_far;
+                    (*pair, is_far) = $near(angle);
+                    some_are_far |= is_far;
+                }
+                if some_are_far.any() { $far(angles, terms()) } else { pairs }
             }
 
             /// Lane by lane.
             #[cold]
             #[inline(never)]
-            fn $far(angle: $lanes, terms: $lanes) -> ($lanes, $lanes) {
-                let mut pairs = [angle.to_array(), terms.to_array()];
-                let [sines, cosines] = &mut pairs;
-                for (sine, cosine) in sines.iter_mut().zip(cosines) {
-                    let (angle, terms) = (*sine, *cosine);
-                    (*sine, *cosine) = sine::$sines::any_sum(angle, terms).into_tuple();
-                }
-                pairs.map($lanes::from).into()
+            fn $far<const N: usize>(angles: [$lanes; N], terms: $lanes) -> [($lanes, $lanes); N] {
+                angles.map(|angles| {
+                    let mut pairs = [angles.to_array(), terms.to_array()];
+                    let [sines, cosines] = &mut pairs;
+                    for (sine, cosine) in sines.iter_mut().zip(cosines) {
+                        let (angle, terms) = (*sine, *cosine);
+                        (*sine, *cosine) = sine::$sines::any_sum(angle, terms).into_tuple();
+                    }
+                    pairs.map($lanes::from).into()
+                })
             }
         };
     }
