@@ -16,6 +16,8 @@ mod engines;
 #[cfg(feature = "measure")]
 mod input;
 #[cfg(feature = "measure")]
+mod limit;
+#[cfg(feature = "measure")]
 mod measure;
 mod report;
 #[cfg(feature = "measure")]

@@ -4,6 +4,7 @@ use crate::Problem;
 use crate::batch::Arrays;
 use crate::casadi::{self, Results};
 use crate::derivatives::{self, derivatives};
+use crate::limit;
 use crate::runge_kutta::{self, GAINS, Vector, parts, torques};
 use crate::states::{State, states};
 use planar_build::prove::generic::Generic;
@@ -143,17 +144,22 @@ pub fn print() -> Result<(), Problem> {
     record("generic, forward dynamics", each(&few, |s| consume(of_generic(&generic, s))));
     record("generic, reduced dynamics", each(&few, |s| consume(reduced_of_generic(&generic, s))));
     record("generic, full impact", each(&few, |s| consume(impact_of_generic(&generic, s))));
+    record("operation at the peak", limit::nanoseconds_per_operation());
+    let names = ["forward dynamics", "reduced dynamics", "reduced impact", "full impact"];
+    for (name, operations) in names.iter().zip(limit::operations(&few[0])) {
+        record(&format!("operations, {name}"), f64::from(operations));
+    }
     println!("{}", Value::Object(times));
     Ok(())
 }
 
 /// Keeps the compiler from leaving out what has no use.
-fn consume<T>(result: T) {
+pub fn consume<T>(result: T) {
     let _ = black_box(result);
 }
 
 /// Nanoseconds of this thread's processor time per call, over all states again and again.
-fn each<S>(states: &[S], mut evaluate: impl FnMut(&S)) -> f64 {
+pub fn each<S>(states: &[S], mut evaluate: impl FnMut(&S)) -> f64 {
     let mut pass = || states.iter().for_each(|state| evaluate(black_box(state)));
     pass();
     let mut passes = 1_u32;

@@ -77,11 +77,30 @@ const BATCHED: [(&str, &str, &str); 10] = [
     ("Runge–Kutta step, 16,384 states", "step, many states", "step"),
 ];
 
+const LIMIT: &str = "
+## The limit
+
+Products and sums of independent numbers that are in registers, fused, in this run: PEAK·10⁹ operations a second (build native,
+fused). Operations are the sums, products and divisions of the generated text, 37 of them for a sine with its cosine; in brackets is
+how many times as long an evaluation takes as these at the peak. A division is not as fast as a product, not every product meets a sum, and
+exchanges of signs and quadrants are not counted. One by one, operations wait for each other, and a sum of scalars takes as long as one
+of vectors. In vectors they wait for what does not fit into registers, and batches for copying results; a batch of exact impacts has
+velocities alone, and computes no impulses.
+How operations grow with links and arms is in [scaling.md](scaling.md).
+
+| | operations | at the peak, ns | one by one | `f64x8` | batch of 64 |
+|---|---|---|---|---|---|
+";
+
 const ARRAYS: &str = "
 ## From Python
 
 The functions of `planar_capture.Robot` on numpy arrays, in one thread, with all that a call takes: ns per state, and the ratio to the
 compiled batch of the default build in the same run";
+
+const ARRAYS_MADE: &str = ".
+A call of 64 states takes mostly what a call of any function takes. Generalized inertia, bias and Jacobian are 78 numbers per state
+where accelerations are 9, in arrays that are new with every call, while a compiled batch writes where it wrote before.";
 
 /// Measurements from Python: title and name, those of batches.
 const FROM_PYTHON: [(&str, &str); 4] = [
@@ -194,6 +213,7 @@ one. It is there for processors that have `f32` alone, and as lanes.\n\n| |";
         let spread = measured.iter().filter_map(|build| build.spread(&key)).fold(0.0, f64::max);
         writeln!(text, " {:.0} % |", 100.0 * spread)?;
     }
+    text += &limit(measured)?;
     text += &from_python(measured, others)?;
     text += "\n## The generic implementation\n\nDense matrices of nalgebra, what one would write by hand: ratio to generated code of the same build.\n\n| |";
     for (build, ..) in BUILDS {
@@ -233,6 +253,27 @@ fn of_engines(measured: &[Measured], others: &[Measured]) -> Result<String, Prob
     Ok(text)
 }
 
+/// How far evaluations are from what the core can do at most.
+fn limit(measured: &[Measured]) -> Result<String, Problem> {
+    let best = measured.last().ok_or("no build")?;
+    let of = |name: &str| best.median(name).ok_or(format!("nothing of {name}"));
+    let peak = of("operation at the peak")?;
+    let mut text = LIMIT.replace("PEAK", &format!("{:.0}", 1.0 / peak));
+    for (title, name) in [COMPARED[0], COMPARED[3], COMPARED[4], COMPARED[5]] {
+        let operations = of(&format!("operations, {name}"))?;
+        let least = operations * peak;
+        write!(text, "| {title} | {operations:.0} | {least:.1} |")?;
+        for kind in ["f64", "f64x8", "batch"] {
+            match best.median(&format!("{kind}, {name}")) {
+                Some(time) => write!(text, " {time:.1} (**{:.1}**) |", time / least)?,
+                None => text += " – |",
+            }
+        }
+        text += "\n";
+    }
+    Ok(text)
+}
+
 /// What the Python package needs, where it was measured, beside compiled batches and Pinocchio's evaluations one by one.
 fn from_python(measured: &[Measured], others: &[Measured]) -> Result<String, Problem> {
     let of = |name: &str| others.iter().find(|other| other.build == name);
@@ -242,7 +283,8 @@ fn from_python(measured: &[Measured], others: &[Measured]) -> Result<String, Pro
     if pinocchio.is_some() {
         text += "; how many times as long Pinocchio's C++ takes for one of them";
     }
-    text += ".\n\n| | compiled batch | numpy arrays | Pinocchio |\n|---|---|---|---|\n";
+    text += ARRAYS_MADE;
+    text += "\n\n| | compiled batch | numpy arrays | Pinocchio |\n|---|---|---|---|\n";
     for (title, name) in FROM_PYTHON {
         let key = format!("batch, {name}");
         let base = compiled.median(&key).ok_or(format!("no time of {key}"))?;
