@@ -1,5 +1,6 @@
 //! CasADi's C code of the paper's robot.
 
+use crate::runge_kutta::Vector;
 use crate::states::State;
 
 type Function = unsafe extern "C" fn(
@@ -69,6 +70,20 @@ fn motion_and_torques(s: &State) -> [*const f64; 5] {
 #[inline]
 pub fn forward_dynamics(s: &State, results: &mut Results) {
     call(casadi_forward_dynamics, motion_and_torques(s), results);
+}
+
+/// Accelerations of base and joints, from a vector and to an array where they are: what a loop around C would call.
+#[inline]
+pub fn accelerations(x: &Vector, torques: &[f64; 6]) -> [f64; 9] {
+    let (mut found, mut pivot) = ([0.0; 9], 0.0);
+    let (base, joints) = found.split_at_mut(3);
+    let arguments = [x.as_ptr(), x[3..].as_ptr(), x[9..].as_ptr(), x[12..].as_ptr(), torques.as_ptr()];
+    let mut places = [base.as_mut_ptr(), joints.as_mut_ptr(), &raw mut pivot];
+    // as in `call`: 3, 6, 3, 6 and 6 numbers are read, 3, 6 and 1 written
+    unsafe {
+        casadi_forward_dynamics(arguments.as_ptr(), places.as_mut_ptr(), std::ptr::null_mut(), std::ptr::null_mut(), 0);
+    }
+    found
 }
 
 /// Accelerations of base and joints, and their derivatives by position, velocity and forces.

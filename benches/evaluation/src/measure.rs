@@ -45,7 +45,7 @@ const STEPS: u32 = 20_000;
 macro_rules! per_lane {
     ($lanes:ty, $float:ty, $count:literal, $states:expr, $from:expr) => {{
         let lanes: fn([$float; $count]) -> $lanes = $from;
-        let model = Model::<$lanes>::default();
+        let model = black_box(Model::<$lanes>::default());
         #[allow(clippy::cast_possible_truncation, clippy::cast_lossless, reason = "rounding to the lane")]
         let vectors: Vec<_> = $states
             .chunks_exact($count)
@@ -76,7 +76,8 @@ pub fn layout() -> Result<Layout, Problem> {
 
 /// Compares with CasADi, measures, and prints names and times as JSON.
 pub fn print() -> Result<(), Problem> {
-    let (generic, model) = (Generic::new(&layout()?), Model::<f64>::default());
+    // whose numbers the compiler does not know
+    let (generic, model) = (Generic::new(&layout()?), black_box(Model::<f64>::default()));
     let (few, many) = (states(FEW), states(MANY));
     compare(&model, &few)?;
     let mut times = Map::new();
@@ -92,7 +93,7 @@ pub fn print() -> Result<(), Problem> {
     record("C, reduced dynamics, many states", each(&many, |s| casadi::reduced_dynamics(s, &mut results)));
     record("C, reduced impact, many states", each(&many, |s| casadi::reduced_impact(s, &mut results)));
     record("C, full impact, many states", each(&many, |s| casadi::full_impact(s, &mut results)));
-    record("C, step", steps(by_casadi));
+    record("C, step", steps(|x| casadi::accelerations(x, &torques(x))));
     black_box(&results);
 
     let forward = |s: &State| {
@@ -100,7 +101,7 @@ pub fn print() -> Result<(), Problem> {
     };
     record("f64, forward dynamics", each(&few, forward));
     record("f64, forward dynamics, many states", each(&many, forward));
-    let with_derivatives = derivatives::Model::default();
+    let with_derivatives = black_box(derivatives::Model::default());
     record(
         "f64, derivatives",
         each(&few, |s| {
@@ -256,14 +257,6 @@ fn by_model(model: &Model<f64>, x: &Vector) -> [f64; 9] {
     let (pose, angles, twist, rates) = parts(x);
     let found = model.forward_dynamics(&pose, &angles, &twist, &rates, &torques(x));
     joined(found.base_acceleration, found.joint_accelerations)
-}
-
-fn by_casadi(x: &Vector) -> [f64; 9] {
-    let (base_pose, joint_angles, base_twist, joint_rates) = parts(x);
-    let none = State { base_pose, joint_angles, base_twist, joint_rates, torques: torques(x), ..State::default() };
-    let mut results = Results::default();
-    casadi::forward_dynamics(&none, &mut results);
-    std::array::from_fn(|i| if i < 3 { results.of(0, 3)[i] } else { results.of(1, 6)[i - 3] })
 }
 
 fn joined(base: [f64; 3], joints: [f64; 6]) -> [f64; 9] {

@@ -59,7 +59,9 @@ const BATCHES: &str = "
 
 The feature `batch`: states as structures of arrays, in vectors of the instruction set that the program finds when it runs. Time
 per state, and the ratio to one state of CasADi's C, which takes one after the other: 64 states stay in the first-level cache,
-16,384 do not. A step of a batch is under constant torques, C's under PD control, which adds 24 operations to some 305.
+16,384 do not. Batches of exact impacts give velocities alone, without matrices and impulses; generalized inertia, bias and Jacobian are
+78 numbers per state to store, and gain least. A step of a batch is under constant torques, C's under PD control,
+which adds 24 operations to each evaluation.
 
 | | C, ns |";
 
@@ -84,8 +86,7 @@ Products and sums of independent numbers that are in registers, fused, in this r
 fused). Operations are the sums, products and divisions of the generated text, 37 of them for a sine with its cosine; in brackets is
 how many times as long an evaluation takes as these at the peak. A division is not as fast as a product, not every product meets a sum, and
 exchanges of signs and quadrants are not counted. One by one, operations wait for each other, and a sum of scalars takes as long as one
-of vectors. In vectors they wait for what does not fit into registers, and batches for copying results; a batch of exact impacts has
-velocities alone, and computes no impulses.
+of vectors. In vectors they wait for what does not fit into registers, and batches for copying results.
 How operations grow with links and arms is in [scaling.md](scaling.md).
 
 | | operations | at the peak, ns | one by one | `f64x8` | batch of 64 |

@@ -14,6 +14,9 @@ pub trait Kernel {
     /// The model.
     fn model<T: Number>(&self) -> Self::Model<T>;
 
+    /// Whether all parameters of the model are finite.
+    fn is_finite(&self) -> bool;
+
     /// Computes the instances of a place in blocks of B: the results of those that are done, and the statuses of the others.
     fn evaluate<T: Number, const B: usize>(&mut self, model: &Self::Model<T>, place: Place, statuses: &mut [Status]);
 }
@@ -119,6 +122,11 @@ fn blocks<T: Number, K: Kernel>(kernel: &mut K, statuses: &mut [Status]) {
 #[cold]
 #[inline(never)]
 fn one_by_one<K: Kernel>(kernel: &mut K, statuses: &mut [Status]) {
+    if !kernel.is_finite() {
+        // as the functions for one state say, whatever else there is
+        statuses.iter_mut().filter(|status| **status != Status::Done).for_each(|status| *status = Status::NotFinite);
+        return;
+    }
     let (model, columns) = (kernel.model::<f64>(), statuses.len());
     for from in 0..columns {
         match statuses.get_mut(from) {

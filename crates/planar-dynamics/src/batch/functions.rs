@@ -156,6 +156,10 @@ macro_rules! call {
                 self.model.with_scalar()
             }
 
+            fn is_finite(&self) -> bool {
+                self.model.is_finite()
+            }
+
             #[inline(always)]
             fn evaluate<T: Number, const B: usize>(
                 &mut self,

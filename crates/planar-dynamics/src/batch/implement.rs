@@ -186,6 +186,10 @@ macro_rules! implement_batch {
                     self.map(T::constant)
                 }
 
+                fn is_finite(&self) -> bool {
+                    self.parameters().to_array().iter().all(|value| value.is_finite())
+                }
+
                 #[inline(always)]
                 fn forward_dynamics<T: Number, const B: usize>(
                     model: &Model<T>,

@@ -20,6 +20,9 @@ pub trait BatchModel {
     /// This model.
     fn with_scalar<T: Number>(&self) -> Self::Of<T>;
 
+    /// Whether all parameters are finite.
+    fn is_finite(&self) -> bool;
+
     /// See [`Batch::forward_dynamics`](super::Batch::forward_dynamics).
     fn forward_dynamics<T: Number, const B: usize>(
         model: &Self::Of<T>,

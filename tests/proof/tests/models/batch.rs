@@ -268,6 +268,14 @@ fn every_instruction_set_gives_the_same() {
     check::<AsBuilt, _>(&dual_arm_3r::Model::<f64>::default(), 187);
 }
 
+#[test]
+fn robots_with_a_number_that_is_not_finite_have_no_result() {
+    for base_inertia in [f64::NAN, f64::INFINITY] {
+        let parameters = dual_arm_3r::Parameters { base_inertia, ..dual_arm_3r::Parameters::default() };
+        check::<Detected, _>(&dual_arm_3r::Model::<f64>::new(parameters), 65);
+    }
+}
+
 /// A base of negative inertia, which the arms make up for in some poses and not in others: a step through one where they do not
 /// has no result, wherever it ends.
 #[test]
