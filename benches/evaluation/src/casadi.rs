@@ -44,6 +44,11 @@ impl Default for Results {
 }
 
 impl Results {
+    #[inline]
+    fn places(&mut self) -> [*mut f64; RESULTS] {
+        self.0.each_mut().map(|result| result.as_mut_ptr())
+    }
+
     /// The first elements of a result.
     pub fn of(&self, result: usize, count: usize) -> &[f64] {
         &self.0[result][..count]
@@ -51,10 +56,9 @@ impl Results {
 }
 
 #[inline]
-fn call<const N: usize>(function: Function, arguments: [*const f64; N], results: &mut Results) {
-    let mut places = results.0.each_mut().map(|result| result.as_mut_ptr());
-    // CasADi's functions read as many elements of each argument as it has and write no more than `ELEMENTS` to each result;
-    // expanded functions need no work space
+fn call<const N: usize, const R: usize>(function: Function, arguments: [*const f64; N], mut places: [*mut f64; R]) {
+    // CasADi's functions read as many elements of each argument as it has, and write as many to each place as the result has, no
+    // more than `ELEMENTS`; expanded functions need no work space
     unsafe {
         function(arguments.as_ptr(), places.as_mut_ptr(), std::ptr::null_mut(), std::ptr::null_mut(), 0);
     }
@@ -69,7 +73,7 @@ fn motion_and_torques(s: &State) -> [*const f64; 5] {
 /// Accelerations of base and joints, smallest pivot.
 #[inline]
 pub fn forward_dynamics(s: &State, results: &mut Results) {
-    call(casadi_forward_dynamics, motion_and_torques(s), results);
+    call(casadi_forward_dynamics, motion_and_torques(s), results.places());
 }
 
 /// Accelerations of base and joints, from a vector and to an array where they are: what a loop around C would call.
@@ -78,25 +82,21 @@ pub fn accelerations(x: &Vector, torques: &[f64; 6]) -> [f64; 9] {
     let (mut found, mut pivot) = ([0.0; 9], 0.0);
     let (base, joints) = found.split_at_mut(3);
     let arguments = [x.as_ptr(), x[3..].as_ptr(), x[9..].as_ptr(), x[12..].as_ptr(), torques.as_ptr()];
-    let mut places = [base.as_mut_ptr(), joints.as_mut_ptr(), &raw mut pivot];
-    // as in `call`: 3, 6, 3, 6 and 6 numbers are read, 3, 6 and 1 written
-    unsafe {
-        casadi_forward_dynamics(arguments.as_ptr(), places.as_mut_ptr(), std::ptr::null_mut(), std::ptr::null_mut(), 0);
-    }
+    call(casadi_forward_dynamics, arguments, [base.as_mut_ptr(), joints.as_mut_ptr(), &raw mut pivot]);
     found
 }
 
 /// Accelerations of base and joints, and their derivatives by position, velocity and forces.
 #[inline]
 pub fn derivatives(s: &State, results: &mut Results) {
-    call(casadi_forward_dynamics_derivatives, motion_and_torques(s), results);
+    call(casadi_forward_dynamics_derivatives, motion_and_torques(s), results.places());
 }
 
 /// Generalized inertia, bias, Jacobian, smallest pivot.
 #[inline]
 pub fn reduced_dynamics(s: &State, results: &mut Results) {
     let arguments = [s.base_pose.as_ptr(), s.joint_angles.as_ptr(), s.base_twist.as_ptr(), s.joint_rates.as_ptr()];
-    call(casadi_reduced_dynamics, arguments, results);
+    call(casadi_reduced_dynamics, arguments, results.places());
 }
 
 /// G, H, joint rates after, smallest pivot.
@@ -111,7 +111,7 @@ pub fn reduced_impact(s: &State, results: &mut Results) {
         s.contacts.as_flattened().as_ptr(),
         s.twists.as_flattened().as_ptr(),
     ];
-    call(casadi_reduced_impact, arguments, results);
+    call(casadi_reduced_impact, arguments, results.places());
 }
 
 /// G, H, base twist and joint rates after, smallest pivot.
@@ -127,5 +127,5 @@ pub fn full_impact(s: &State, results: &mut Results) {
         s.contacts.as_flattened().as_ptr(),
         s.twists.as_flattened().as_ptr(),
     ];
-    call(casadi_full_impact, arguments, results);
+    call(casadi_full_impact, arguments, results.places());
 }

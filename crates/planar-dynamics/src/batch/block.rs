@@ -1,7 +1,8 @@
-//! Some instances of a batch, copied to where the compiler knows that nothing else is.
+//! Some instances of a batch: what is given where it is, what is computed first where the compiler knows that nothing else is.
 
 use crate::scalar::Scalar;
 use crate::status::Status;
+use crate::validate::is_regular;
 use core::hint::black_box;
 
 /// The scalar of a batch: `f64`, or one that becomes vectors.
@@ -192,7 +193,7 @@ impl<const B: usize> Checks<B> {
     /// Of an instance, from sums of [`zeros`] of what is given and of what is computed, and its smallest pivot.
     #[inline(always)]
     pub fn put<T: Number>(&mut self, instance: usize, given: T, pivot: T, computed: T) {
-        let of_result = if pivot.value() > 8.0 * f64::EPSILON { computed.value() } else { 1.0 };
+        let of_result = if is_regular(pivot.value()) { computed.value() } else { 1.0 };
         self.0[instance] = given.value() + of_result;
     }
 

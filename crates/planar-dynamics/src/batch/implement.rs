@@ -18,6 +18,7 @@ macro_rules! implement_batch {
                 Targets,
             };
             use $crate::state::RobotState;
+            use $crate::validate::all_finite;
 
             /// States, or their rates.
             #[derive(Clone, Copy)]
@@ -187,7 +188,7 @@ macro_rules! implement_batch {
                 }
 
                 fn is_finite(&self) -> bool {
-                    self.parameters().to_array().iter().all(|value| value.is_finite())
+                    all_finite([&self.parameters().to_array()[..]])
                 }
 
                 #[inline(always)]

@@ -3,7 +3,7 @@
 #![allow(clippy::inline_always, reason = "what is not inlined has the instruction set of the build")]
 
 use super::Scalar;
-use super::sine::DOUBLE;
+use super::sine::{DOUBLE, exchanged_f64};
 use core::f64::consts::FRAC_2_PI;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -131,12 +131,7 @@ fn together<const FUSED: bool, const K: usize>(angles: [Lane<FUSED>; K]) -> [(La
         let (x, z) = (x[k], z[k]);
         let sine = (x * z).mul_add(sines[k], x);
         let cosine = z.mul_add(z.mul_add(cosines[k], Lane(-0.5)), Lane(1.0));
-        // exchanged in odd quadrants
-        let (sine, cosine, quadrant) = (sine.0.to_bits(), cosine.0.to_bits(), shifted[k].0.to_bits());
-        let exchange = (sine ^ cosine) & (quadrant & 1).wrapping_neg();
-        let sign = |quadrant: u64| (quadrant & 2) << 62;
-        let sine = sine ^ exchange ^ sign(quadrant);
-        let cosine = cosine ^ exchange ^ sign(quadrant.wrapping_add(1));
-        (Lane(f64::from_bits(sine)), Lane(f64::from_bits(cosine)))
+        let (sine, cosine) = exchanged_f64(sine.0, cosine.0, shifted[k].0.to_bits());
+        (Lane(sine), Lane(cosine))
     })
 }

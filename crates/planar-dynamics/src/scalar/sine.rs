@@ -71,6 +71,13 @@ fn turned_f64(x: f64, quadrant: u64) -> (f64, f64) {
         let (sine, cosine) = if quadrant & 2 == 0 { (sine, cosine) } else { (-sine, -cosine) };
         return (sine, cosine);
     }
+    exchanged_f64(sine, cosine, quadrant)
+}
+
+/// Sine and cosine of a reduced angle, exchanged in odd quadrants, with their signs.
+#[allow(clippy::inline_always, reason = "in vectors, what is not inlined has the instruction set of the build")]
+#[inline(always)]
+pub fn exchanged_f64(sine: f64, cosine: f64, quadrant: u64) -> (f64, f64) {
     let (sine, cosine) = (sine.to_bits(), cosine.to_bits());
     let exchange = (sine ^ cosine) & (quadrant & 1).wrapping_neg();
     let sign = |quadrant: u64| (quadrant & 2) << 62;
