@@ -5,7 +5,7 @@ use crate::batch::Arrays;
 use crate::casadi::{self, Results};
 use crate::derivatives::{self, derivatives};
 use crate::limit;
-use crate::runge_kutta::{self, GAINS, Vector, parts, torques};
+use crate::runge_kutta::{self, GAINS, Motion, Vector, parts, torques};
 use crate::states::{State, states};
 use planar_build::prove::generic::Generic;
 use planar_capture::control::ProportionalDerivative;
@@ -93,7 +93,8 @@ pub fn print() -> Result<(), Problem> {
     record("C, reduced dynamics, many states", each(&many, |s| casadi::reduced_dynamics(s, &mut results)));
     record("C, reduced impact, many states", each(&many, |s| casadi::reduced_impact(s, &mut results)));
     record("C, full impact, many states", each(&many, |s| casadi::full_impact(s, &mut results)));
-    record("C, step", steps(|x| casadi::accelerations(x, &torques(x))));
+    record("C, step", steps(&ByC));
+    record("C, called step", steps(&ByC));
     black_box(&results);
 
     let forward = |s: &State| {
@@ -116,7 +117,8 @@ pub fn print() -> Result<(), Problem> {
     );
     record("f64, reduced impact", each(&few, |s| consume(reduced_impact(&model, s))));
     record("f64, full impact", each(&few, |s| consume(full_impact(&model, s))));
-    record("f64, step", steps(|x| by_model(&model, x)));
+    record("f64, step", steps(&ByModel(&model)));
+    record("f64, called step", steps(&ByCalls(&model)));
     record("library, step", library_steps(&model));
     record("simulation, step", simulated_steps(&model));
     record("audit, step", audited_states(&model, &few)?);
@@ -177,7 +179,7 @@ pub fn each<S>(states: &[S], mut evaluate: impl FnMut(&S)) -> f64 {
 }
 
 /// Nanoseconds per Runge–Kutta step of a motion under control.
-fn steps(accelerations: impl Fn(&Vector) -> [f64; 9]) -> f64 {
+fn steps(motion: &impl Motion) -> f64 {
     let mut start = [0.0; 18];
     start[3..9].copy_from_slice(&ANGLES);
     let mut x = start;
@@ -187,7 +189,7 @@ fn steps(accelerations: impl Fn(&Vector) -> [f64; 9]) -> f64 {
             x = start;
         }
         count += 1;
-        runge_kutta::step(&accelerations, &mut x, STEP);
+        runge_kutta::step(motion, &mut x, STEP);
     });
     black_box(x);
     time
@@ -253,12 +255,41 @@ fn seconds() -> f64 {
     time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
 }
 
-fn by_model(model: &Model<f64>, x: &Vector) -> [f64; 9] {
-    let (pose, angles, twist, rates) = parts(x);
-    let found = model.forward_dynamics(&pose, &angles, &twist, &rates, &torques(x));
-    joined(found.base_acceleration, found.joint_accelerations)
+/// By CasADi's C code, which is called.
+struct ByC;
+
+impl Motion for ByC {
+    #[inline]
+    fn accelerations(&self, x: &Vector) -> [f64; 9] {
+        casadi::accelerations(x, &torques(x))
+    }
 }
 
+/// By generated code, inlined.
+struct ByModel<'a>(&'a Model<f64>);
+
+impl Motion for ByModel<'_> {
+    #[inline(always)]
+    #[allow(clippy::inline_always, reason = "what is called passes vectors through memory")]
+    fn accelerations(&self, x: &Vector) -> [f64; 9] {
+        let (pose, angles, twist, rates) = parts(x);
+        let found = self.0.forward_dynamics(&pose, &angles, &twist, &rates, &torques(x));
+        joined(found.base_acceleration, found.joint_accelerations)
+    }
+}
+
+/// By generated code in a function that is called.
+struct ByCalls<'a>(&'a Model<f64>);
+
+impl Motion for ByCalls<'_> {
+    #[inline(never)]
+    fn accelerations(&self, x: &Vector) -> [f64; 9] {
+        ByModel(self.0).accelerations(x)
+    }
+}
+
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "what is called passes vectors through memory")]
 fn joined(base: [f64; 3], joints: [f64; 6]) -> [f64; 9] {
     std::array::from_fn(|i| if i < 3 { base[i] } else { joints[i - 3] })
 }

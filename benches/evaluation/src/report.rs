@@ -21,10 +21,17 @@ Single calls of both sides read the same records, one of 248 bytes per state, in
 are 4 MB. C is slower on the latter, probably because the sines of the C library branch by the angle, which a processor predicts for
 angles that it has just seen; generated sines have no such branch.
 
+A step is a loop by hand around evaluations, the same text for both. C is called. Generated code is inlined into it, so that numbers
+stay in registers from stage to stage: a function that is called returns them through memory, where a processor waits for vectors that
+are put together from several stores.
+
 ";
 
+/// Flags of the C compiler, those of the build script.
+const C_FLAGS: &str = "-O3 -march=native";
+
 /// Measurements with a counterpart in C: title, names without the implementation.
-const COMPARED: [(&str, &str); 7] = [
+const COMPARED: [(&str, &str); 8] = [
     ("forward dynamics", "forward dynamics"),
     ("forward dynamics, 16,384 states", "forward dynamics, many states"),
     ("derivatives of forward dynamics", "derivatives"),
@@ -32,13 +39,14 @@ const COMPARED: [(&str, &str); 7] = [
     ("impact, paper's equations", "reduced impact"),
     ("impact, exact", "full impact"),
     ("Runge–Kutta step with PD control", "step"),
+    ("the same, evaluations called", "called step"),
 ];
 
 const SIMULATION: &str = "
 ## Simulation
 
-Runge–Kutta steps of 1 ms with PD control, 20 s of motion, per step. By hand: a loop over arrays around generated forward dynamics,
-which looks at neither pivot nor numbers. The library's integrator, law and equation take slices, check the pivot and that numbers
+Runge–Kutta steps of 1 ms with PD control, 20 s of motion, per step. By hand: the loop of the first table, over arrays, which looks at
+neither pivot nor numbers. The library's integrator, law and equation take slices, check the pivot and that numbers
 are finite, and integrate the work of the joints too. A simulation also audits momentum, energy and centre of mass at every step,
 estimates the error of its path by steps of twice the length, and keeps its path. The audit alone is that of states in order, of
 which it takes eight at once.
@@ -46,8 +54,9 @@ which it takes eight at once.
 | |";
 
 /// Ratios of simulations: title, measurement, and what it is compared with.
-const SIMULATED: [(&str, &str, &str); 3] = [
+const SIMULATED: [(&str, &str, &str); 4] = [
     ("the library's, to that by hand", "library, step", "f64, step"),
+    ("the library's, to that by hand with calls", "library, step", "f64, called step"),
     ("a simulation, to the library's", "simulation, step", "library, step"),
     ("its audit alone, to the library's", "audit, step", "library, step"),
 ];
@@ -131,13 +140,18 @@ pub fn write(measured: &[Measured]) -> Result<(), Problem> {
     let text = markdown(measured)?;
     print!("{text}");
     std::fs::write(folder.join("../../docs/performance.md"), text)?;
-    let all: serde_json::Map<_, _> = measured
+    let nanoseconds: serde_json::Map<_, _> = measured
         .iter()
         .map(|Measured { build, times }| {
             let times: serde_json::Map<_, _> = times.iter().map(|(name, times)| (name.clone(), json!(times))).collect();
             ((*build).to_owned(), times.into())
         })
         .collect();
+    let builds: serde_json::Map<_, _> = BUILDS
+        .iter()
+        .map(|(name, flags, fused)| ((*name).to_owned(), json!({ "rustflags": flags, "fused": fused })))
+        .collect();
+    let all = json!({ "measured_on": machine(), "c_flags": C_FLAGS, "builds": builds, "nanoseconds": nanoseconds });
     Ok(std::fs::write(folder.join("target/performance.json"), serde_json::to_string_pretty(&all)?)?)
 }
 
@@ -149,8 +163,10 @@ fn markdown(all: &[Measured]) -> Result<String, Problem> {
         of_builds.min_by(f64::total_cmp).ok_or(format!("no time of C, {name}"))
     };
     let mut text = HEAD.to_owned();
-    writeln!(text, "{}\n", machine())?;
-    text += "## Against CasADi's C\n\nRatio to the time of C; in brackets ns. Spread is the larger quartile over the median, of all builds.\n\n| | C, ns |";
+    let flags = BUILDS.map(|(name, flags, _)| format!("{name} `{flags}`").replace(" ``", " none"));
+    writeln!(text, "Measured on: {}. `RUSTFLAGS`: {}.\n", machine().join("; "), flags.join(", "))?;
+    text += "## Against CasADi's C\n\nRatio to the time of C; in brackets ns. C has the same flags in all builds: its time is the least of their medians.
+Spread is the larger quartile over the median, of all builds.\n\n| | C, ns |";
     for (build, ..) in BUILDS {
         write!(text, " {build} |")?;
     }
@@ -301,14 +317,21 @@ fn from_python(measured: &[Measured], others: &[Measured]) -> Result<String, Pro
 }
 
 /// Processor and compilers.
-fn machine() -> String {
+fn machine() -> Vec<String> {
     let processor = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let model =
-        processor.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": ").map(|(_, name)| name));
+    let of_processor = |key: &str| {
+        let (_, value) =
+            processor.lines().filter_map(|line| line.split_once(':')).find(|(name, _)| name.trim() == key)?;
+        Some(value.trim().to_owned())
+    };
+    let model = of_processor("model name").map(|name| {
+        // the names of servers' processors in virtual machines are those of all of them
+        let numbers = ["cpu family", "model"].map(|key| of_processor(key).unwrap_or_default());
+        format!("{name} (family {}, model {})", numbers[0], numbers[1])
+    });
     let version = |program: &str| {
         let output = Command::new(program).arg("--version").output().ok()?;
         Some(String::from_utf8_lossy(&output.stdout).lines().next()?.to_owned())
     };
-    let known = [model.map(str::to_owned), version("rustc"), version("cc")];
-    format!("Measured on: {}.", known.into_iter().flatten().collect::<Vec<_>>().join("; "))
+    [model, version("rustc"), version("cc")].into_iter().flatten().collect()
 }

@@ -112,6 +112,22 @@ pub trait ForwardDynamics<T: Real> {
         forces: &Forces<'_, T>,
         joint_accelerations: &mut [T],
     ) -> Result<[T; 3], Error>;
+
+    /// As [`forward_dynamics`](Self::forward_dynamics), and the smallest pivot: whether it is that of a singular system, and all
+    /// numbers are finite, is left to the caller, who asks once after several evaluations.
+    ///
+    /// # Errors
+    /// [`Error::Length`], and without a definition of a model's own those of [`forward_dynamics`](Self::forward_dynamics).
+    #[doc(hidden)]
+    #[inline]
+    fn accelerations_and_pivot(
+        &self,
+        state: &State<'_, T>,
+        forces: &Forces<'_, T>,
+        joint_accelerations: &mut [T],
+    ) -> Result<([T; 3], T), Error> {
+        Ok((self.forward_dynamics(state, forces, joint_accelerations)?, T::ONE))
+    }
 }
 
 /// Momentum and kinetic energy at one state.

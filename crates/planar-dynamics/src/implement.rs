@@ -115,6 +115,24 @@ macro_rules! implement_dynamics {
                         under_torques(self, state, angles, rates, torques, joints)
                     }
                 }
+
+                #[inline(always)]
+                fn accelerations_and_pivot(
+                    &self,
+                    state: &State<'_, T>,
+                    forces: &Forces<'_, T>,
+                    joint_accelerations: &mut [T],
+                ) -> Result<([T; 3], T), Error> {
+                    if forces.base_wrench.is_some() || forces.end_effector_wrenches.is_some() {
+                        return Ok((ForwardDynamics::forward_dynamics(self, state, forces, joint_accelerations)?, T::ONE));
+                    }
+                    let [angles, rates] = joint_arrays(state)?;
+                    let torques = *array("joint_torques", forces.joint_torques)?;
+                    let (pose, twist) = (&state.base_pose, &state.base_twist);
+                    let result = Model::forward_dynamics_with_pivot::<false>(self, pose, angles, twist, rates, &torques);
+                    *array_mut("joint_accelerations", joint_accelerations)? = result.joint_accelerations;
+                    Ok((result.base_acceleration, result.smallest_pivot))
+                }
             }
 
             $crate::implement_dynamics!(@accelerations under_torques forward_dynamics_with_pivot());

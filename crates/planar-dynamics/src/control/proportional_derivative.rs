@@ -20,7 +20,9 @@ pub struct ProportionalDerivative<'a, T, R> {
 }
 
 impl<T: Real, M: Model<T> + ?Sized, R: Trajectory<T>> Control<T, M> for ProportionalDerivative<'_, T, R> {
-    #[inline]
+    #[cfg_attr(target_arch = "arm", inline)]
+    #[cfg_attr(not(target_arch = "arm"), inline(always))]
+    #[allow(clippy::inline_always, reason = "a call would pass all numbers through memory")]
     fn joint_torques(&mut self, time: T, _: &M, state: &State<'_, T>, torques: &mut [T]) -> Result<(), Error> {
         let expected = torques.len();
         length("proportional_gain", expected, self.proportional_gain.len())?;

@@ -7,10 +7,10 @@ use crate::formulation::accelerations;
 use crate::linear::{add_scaled, copy};
 use crate::read_again::{from_memory, read_again};
 use crate::scalar::Real;
-use crate::state::{StateVector, split, split_mut};
-use crate::validate::length;
+use crate::state::{StateVector, split, split_mut, vector_length};
+use crate::validate::{all_finite, is_regular, length};
 
-/// The length of vectors that a robot's step has of its own: numbers of a vector whose length the compiler knows are then in
+/// Vectors of up to so many numbers are a robot's step's own: numbers of a vector whose length the compiler knows are then in
 /// registers, as in a loop written by hand. None where registers are few.
 const OWN: usize = if cfg!(target_arch = "arm") { 0 } else { 32 };
 
@@ -68,7 +68,9 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
 
     /// As [`step`](Self::step) of [`derivative`](crate::formulation::derivative), with its bits: a step of a robot and free bodies
     /// under a control law. The slopes of the positions are not copied, they are the rates of the stage. `torques` (joints) holds
-    /// those of the last stage afterwards. Vectors of up to 32 numbers are on the stack instead of in the workspace, except on Arm.
+    /// those of the last stage afterwards. Vectors of up to 32 numbers are on the stack instead of in the workspace, except on Arm;
+    /// whether such a step is regular and finite is asked at its end, and where it is not, its stages are computed again, to see
+    /// which of them is not: the law is then asked twice.
     ///
     /// # Errors
     /// As [`step`](Self::step).
@@ -85,28 +87,100 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
         torques: &mut [T],
     ) -> Result<(), Error> {
         length("state vector", self.slope.len(), x.len())?;
-        let mut own = [[T::ZERO; OWN]; 3];
-        let [slope, sum, stage] = own.each_mut().map(|vector| vector.get_mut(..x.len()).filter(|_| OWN > 0));
-        let [slope, sum, stage] = [slope.unwrap_or(self.slope), sum.unwrap_or(self.sum), stage.unwrap_or(self.stage)];
+        if OWN > 0 && x.len().max(vector_length(model.joints())) <= OWN {
+            let of_stages = stages(step).map(|(at, weight, next)| (time + at, weight, next));
+            if step_at_once(model, control, of_stages, step, x, torques)? {
+                return Ok(());
+            }
+        }
+        self.step_by_stages(model, control, time, step, x, torques)
+    }
+
+    /// The step in the workspace, with a look at each stage.
+    #[inline]
+    fn step_by_stages<M: Model<T> + ?Sized>(
+        &mut self,
+        model: &M,
+        control: &mut (impl Control<T, M> + ?Sized),
+        time: T,
+        step: T,
+        x: &mut [T],
+        torques: &mut [T],
+    ) -> Result<(), Error> {
+        let Self { slope, sum, stage } = self;
         // number by number: where the compiler knows that they are zeros and copies, it calls functions for memory, which take
         // up to ten instructions for each
         let zero = read_again(T::ZERO);
         for ((sum, stage), x) in sum.iter_mut().zip(stage.iter_mut()).zip(x.iter()) {
             (*sum, *stage) = (zero, *x - zero);
         }
-        let StateVector { rates: slopes, work: work_slopes, .. } = split_mut(slope)?;
         for (at, weight, next) in stages(step) {
-            accelerations(model, control, time + at, stage, slopes, work_slopes, torques)?;
             let x = read_again(&*x).get(..sum.len()).unwrap_or_default();
-            let (sum, x, stage) = (split_mut(sum)?, split(x)?, split_mut(stage)?);
-            advance(sum.positions, stage.positions, x.positions, stage.rates, weight, next);
-            advance(sum.rates, stage.rates, x.rates, slopes, weight, next);
-            advance(sum.work, stage.work, x.work, work_slopes, weight, next);
+            robot_stage::<_, _, true>(model, control, (time + at, weight, next), x, [slope, sum, stage], torques)?;
         }
         let x = read_again(x).get_mut(..sum.len()).unwrap_or_default();
         add_scaled(x, step / T::constant(6.0), sum);
         Ok(())
     }
+}
+
+/// The step, or false, where it is not regular and finite; `x` is then unchanged. Each branch between stages would keep numbers
+/// in memory, and a stage wait for them.
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "the caller knows the lengths")]
+fn step_at_once<T: Real, M: Model<T> + ?Sized>(
+    model: &M,
+    control: &mut (impl Control<T, M> + ?Sized),
+    [first, second, third, fourth]: [(T, T, T); 4],
+    step: T,
+    x: &mut [T],
+    torques: &mut [T],
+) -> Result<bool, Error> {
+    let (mut start, mut slope, mut sum, mut stage) = ([T::ZERO; OWN], [T::ZERO; OWN], [T::ZERO; OWN], [T::ZERO; OWN]);
+    let [start, slope, sum, stage] = [
+        start.get_mut(..x.len()).unwrap_or_default(),
+        slope.get_mut(..x.len()).unwrap_or_default(),
+        sum.get_mut(..x.len()).unwrap_or_default(),
+        stage.get_mut(..x.len()).unwrap_or_default(),
+    ];
+    copy(x, start);
+    copy(x, stage);
+    // four times in the text: of a loop's vectors, the numbers would not be in registers
+    let pivots = [
+        robot_stage::<_, _, false>(model, control, first, start, [slope, sum, stage], torques)?,
+        robot_stage::<_, _, false>(model, control, second, start, [slope, sum, stage], torques)?,
+        robot_stage::<_, _, false>(model, control, third, start, [slope, sum, stage], torques)?,
+        robot_stage::<_, _, false>(model, control, fourth, start, [slope, sum, stage], torques)?,
+    ];
+    // slopes depend on all numbers but the place of the base
+    let place = start.get(..3).unwrap_or_default();
+    if !(pivots.into_iter().fold(true, |all, pivot| all & is_regular(pivot)) && all_finite([sum, place])) {
+        return Ok(false);
+    }
+    add_scaled(x, step / T::constant(6.0), sum);
+    Ok(true)
+}
+
+/// One stage at its time, with its weight and the next stage's distance: slopes, sums and the next stage, and the smallest
+/// pivot, unless it is `CHECKED` here.
+#[cfg_attr(target_arch = "arm", inline)]
+#[cfg_attr(not(target_arch = "arm"), inline(always))]
+#[allow(clippy::inline_always, reason = "the caller knows the lengths")]
+fn robot_stage<T: Real, M: Model<T> + ?Sized, const CHECKED: bool>(
+    model: &M,
+    control: &mut (impl Control<T, M> + ?Sized),
+    (time, weight, next): (T, T, T),
+    x: &[T],
+    [slope, sum, stage]: [&mut [T]; 3],
+    torques: &mut [T],
+) -> Result<T, Error> {
+    let StateVector { rates: slopes, work: work_slopes, .. } = split_mut(slope)?;
+    let pivot = accelerations::<_, _, CHECKED>(model, control, time, stage, slopes, work_slopes, torques)?;
+    let (sum, x, stage) = (split_mut(sum)?, split(x)?, split_mut(stage)?);
+    advance(sum.positions, stage.positions, x.positions, stage.rates, weight, next);
+    advance(sum.rates, stage.rates, x.rates, slopes, weight, next);
+    advance(sum.work, stage.work, x.work, work_slopes, weight, next);
+    Ok(pivot)
 }
 
 /// Of each stage: its time after the start, its weight, and how far along its slope the next one is; the last is not used.
@@ -120,7 +194,7 @@ fn stages<T: Real>(step: T) -> [(T, T, T); 4] {
 #[inline]
 fn advance<T: Real>(sum: &mut [T], stage: &mut [T], x: &[T], slopes: &[T], weight: T, next: T) {
     for ((sum, stage), (x, slope)) in sum.iter_mut().zip(stage).zip(x.iter().zip(slopes)) {
-        *sum += weight * *slope;
-        *stage = *x + next * *slope;
+        *sum = T::mul_add(*slope, weight, *sum);
+        *stage = T::mul_add(*slope, next, *x);
     }
 }

@@ -6,10 +6,12 @@ use planar_capture::control::{BaseTorque, Control};
 use planar_capture::dynamics;
 use planar_capture::error::Error;
 use planar_capture::formulation::derivative;
-use planar_capture::generated::dual_arm_3r::{JOINTS, Model};
+use planar_capture::generated::dual_arm_3r::{JOINTS, Model, Parameters};
 use planar_capture::integrate::{Adaptive, GaussLegendre, RungeKutta4, SemiImplicitEuler};
 use planar_capture::state::{State, vector_length};
 use proptest::prelude::*;
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
 
 /// ẋ = f(t, x).
 type Derivative<'a> = &'a mut dyn FnMut(f64, &[f64], &mut [f64]) -> Result<(), Error>;
@@ -159,4 +161,42 @@ fn a_step_of_a_robot_has_the_bits_of_a_step() {
         assert!(short.robot_step(&model, &mut Swaying { base }, 0.0, 0.01, &mut x, &mut torques[0]).is_err());
         assert_eq!(x, before);
     }
+}
+
+/// A number that is not finite, a step that overflows, or a base of negative inertia, for which the arms make up in some poses: a
+/// step of a robot has the error of a step, whichever stage it is from, or its numbers.
+#[test]
+fn a_step_of_a_robot_has_the_error_of_a_step() {
+    const LENGTH: usize = vector_length(JOINTS);
+    let with_base_inertia = |base_inertia| Model::<f64>::new(Parameters { base_inertia, ..Parameters::default() });
+    let mut random = ChaCha8Rng::seed_from_u64(1);
+    let states = (0..600).map(|_| std::array::from_fn(|_| random.random_range(-3.0..3.0)));
+    let regular = Model::<f64>::default();
+    let mut cases: Vec<(Model<f64>, f64, [f64; LENGTH])> = Vec::new();
+    for (k, state) in states.enumerate() {
+        cases.push((with_base_inertia([-4.0, -5.0, -6.0, -8.0][k % 4]), 0.5, state));
+        cases.push((regular, [1e3, 1e150, 1e300][k % 3], state));
+        let mut with_other = state;
+        with_other[k % LENGTH] = [f64::NAN, f64::INFINITY, -1e308][k % 3];
+        cases.push((regular, 1e-2, with_other));
+    }
+    let (mut done, mut singular, mut not_finite) = (0, 0, 0);
+    for (model, step, start) in cases {
+        let [mut found, mut expected] = [start; 2];
+        let [mut of_robot, mut of_step] = [[0.0; JOINTS]; 2];
+        let (mut law, mut workspace) = (Swaying { base: None }, [f64::NAN; 3 * LENGTH]);
+        let mut integrator = RungeKutta4::new(&mut workspace).expect("a workspace");
+        let result = integrator.robot_step(&model, &mut law, 0.3, step, &mut found, &mut of_robot);
+        let slopes = |t, x: &[f64], rate: &mut [f64]| derivative(&model, &mut law, t, x, rate, &mut of_step);
+        let general = integrator.step(0.3, step, &mut expected, slopes);
+        // the errors have numbers that may be NaN
+        assert_eq!(format!("{result:?}"), format!("{general:?}"), "{step} s from {start:?}");
+        assert_eq!(found.map(f64::to_bits), expected.map(f64::to_bits), "{step} s from {start:?}");
+        match result {
+            Ok(()) => done += 1,
+            Err(Error::Singular { .. }) => singular += 1,
+            Err(_) => not_finite += 1,
+        }
+    }
+    assert!(done > 99 && singular > 9 && not_finite > 99, "{done} {singular} {not_finite}");
 }

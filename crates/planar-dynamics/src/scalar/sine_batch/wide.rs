@@ -26,7 +26,8 @@ pub(super) fn of_each<const N: usize>(angles: [f64; N], terms: impl Fn() -> f64)
 /// 300 instructions longer.
 #[inline(always)]
 fn of_some<const N: usize>(angles: &[f64; N], from: usize, terms: impl Fn() -> f64) -> Pairs {
-    let angle = |i: usize| angles.get(from + i).copied().unwrap_or(0.0);
+    // the last one again in lanes that have none: it is in a register, and a 0 would have to be put beside it
+    let angle = |i: usize| angles.get(from + i).or(angles.last()).copied().unwrap_or(0.0);
     let [first, second] = [0, 4].map(|i| [angle(i), angle(i + 1), angle(i + 2), angle(i + 3)]);
     if from + 4 < N { eight(first, second, terms) } else { four(first, terms) }
 }
