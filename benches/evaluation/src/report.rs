@@ -23,7 +23,8 @@ angles that it has just seen; generated sines have no such branch.
 
 A step is a loop by hand around evaluations, the same text for both. C is called. Generated code is inlined into it, so that numbers
 stay in registers from stage to stage: a function that is called returns them through memory, where a processor waits for vectors that
-are put together from several stores.
+are put together from several stores. Inlined are functions with `#[inline(always)]` that the loop calls by name, over arrays; a closure
+that is given to an integrator of any motion is called, and `Vec`s are memory.
 
 ";
 

@@ -70,10 +70,13 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
     /// under a control law. The slopes of the positions are not copied, they are the rates of the stage. `torques` (joints) holds
     /// those of the last stage afterwards. Vectors of up to 32 numbers are on the stack instead of in the workspace, except on Arm;
     /// whether such a step is regular and finite is asked at its end, and where it is not, its stages are computed again, to see
-    /// which of them is not: the law is then asked twice.
+    /// which of them is not: the law is then asked twice, first about what follows after such a stage, too, which may be NaN.
+    ///
+    /// It is as fast as a step written by hand where model, law and vectors are of known lengths (arrays, not `Vec`s) and in the
+    /// function that calls it. [`Control::begin_step`] is left to the caller.
     ///
     /// # Errors
-    /// As [`step`](Self::step).
+    /// As [`step`](Self::step): of the robot's numbers. Work and free bodies are not looked at.
     #[cfg_attr(target_arch = "arm", inline)]
     #[cfg_attr(not(target_arch = "arm"), inline(always))]
     #[allow(clippy::inline_always, reason = "the caller knows the lengths")]
@@ -89,7 +92,8 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
         length("state vector", self.slope.len(), x.len())?;
         if OWN > 0 && x.len().max(vector_length(model.joints())) <= OWN {
             let of_stages = stages(step).map(|(at, weight, next)| (time + at, weight, next));
-            if step_at_once(model, control, of_stages, step, x, torques)? {
+            // an error of the law may be one of a stage after that which is not regular
+            if let Ok(true) = step_at_once(model, control, of_stages, step, x, torques) {
                 return Ok(());
             }
         }
@@ -145,20 +149,28 @@ fn step_at_once<T: Real, M: Model<T> + ?Sized>(
     ];
     copy(x, start);
     copy(x, stage);
+    // slopes depend on all numbers but the place of the base: the places of all stages are finite where their sum is
+    let mut places = [T::ZERO; 3];
     // four times in the text: of a loop's vectors, the numbers would not be in registers
     let pivots = [
-        robot_stage::<_, _, false>(model, control, first, start, [slope, sum, stage], torques)?,
-        robot_stage::<_, _, false>(model, control, second, start, [slope, sum, stage], torques)?,
-        robot_stage::<_, _, false>(model, control, third, start, [slope, sum, stage], torques)?,
-        robot_stage::<_, _, false>(model, control, fourth, start, [slope, sum, stage], torques)?,
+        robot_stage::<_, _, false>(model, control, first, start, [slope, sum, add(stage, &mut places)], torques)?,
+        robot_stage::<_, _, false>(model, control, second, start, [slope, sum, add(stage, &mut places)], torques)?,
+        robot_stage::<_, _, false>(model, control, third, start, [slope, sum, add(stage, &mut places)], torques)?,
+        robot_stage::<_, _, false>(model, control, fourth, start, [slope, sum, add(stage, &mut places)], torques)?,
     ];
-    // slopes depend on all numbers but the place of the base
-    let place = start.get(..3).unwrap_or_default();
-    if !(pivots.into_iter().fold(true, |all, pivot| all & is_regular(pivot)) && all_finite([sum, place])) {
+    if !(pivots.into_iter().fold(true, |all, pivot| all & is_regular(pivot)) && all_finite([sum, &places])) {
         return Ok(false);
     }
     add_scaled(x, step / T::constant(6.0), sum);
     Ok(true)
+}
+
+/// The same vector, whose first numbers are added to the sums.
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "the caller knows the lengths")]
+fn add<'v, T: Real>(vector: &'v mut [T], sums: &mut [T; 3]) -> &'v mut [T] {
+    add_scaled(sums, T::ONE, vector);
+    vector
 }
 
 /// One stage at its time, with its weight and the next stage's distance: slopes, sums and the next stage, and the smallest

@@ -117,7 +117,7 @@ fn errors_of_a_derivative_are_returned() {
     }
 }
 
-/// Torques that depend on time and state, and one on the base.
+/// Torques that depend on time and state, and one on the base; none for rates that are not finite.
 struct Swaying {
     base: Option<BaseTorque<f64>>,
 }
@@ -125,6 +125,9 @@ struct Swaying {
 impl<M: dynamics::Model<f64> + ?Sized> Control<f64, M> for Swaying {
     fn joint_torques(&mut self, time: f64, _: &M, state: &State<'_, f64>, torques: &mut [f64]) -> Result<(), Error> {
         for (torque, (angle, rate)) in torques.iter_mut().zip(state.joint_angles.iter().zip(state.joint_rates)) {
+            if !rate.is_finite() {
+                return Err(Error::NotFinite { quantity: "rates of the law", index: 0, value: *rate });
+            }
             *torque = time.cos() - 3.0 * angle - 0.5 * rate;
         }
         Ok(())
@@ -179,6 +182,10 @@ fn a_step_of_a_robot_has_the_error_of_a_step() {
         let mut with_other = state;
         with_other[k % LENGTH] = [f64::NAN, f64::INFINITY, -1e308][k % 3];
         cases.push((regular, 1e-2, with_other));
+        // a place that is beyond the largest number in the middle of a step
+        let mut far = state;
+        (far[1], far[JOINTS + 4]) = (1.7e308, 1e308);
+        cases.push((regular, [0.1, 0.2, 0.5][k % 3], far));
     }
     let (mut done, mut singular, mut not_finite) = (0, 0, 0);
     for (model, step, start) in cases {
