@@ -94,7 +94,6 @@ pub fn print() -> Result<(), Problem> {
     record("C, reduced impact, many states", each(&many, |s| casadi::reduced_impact(s, &mut results)));
     record("C, full impact, many states", each(&many, |s| casadi::full_impact(s, &mut results)));
     record("C, step", steps(&ByC));
-    record("C, called step", steps(&ByC));
     black_box(&results);
 
     let forward = |s: &State| {

@@ -90,17 +90,18 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
         torques: &mut [T],
     ) -> Result<(), Error> {
         length("state vector", self.slope.len(), x.len())?;
+        // the number of joints is known to the compiler where the vector's length is not: a large robot has no four stages in its text
         if OWN > 0 && x.len().max(vector_length(model.joints())) <= OWN {
-            let of_stages = stages(step).map(|(at, weight, next)| (time + at, weight, next));
             // an error of the law may be one of a stage after that which is not regular
-            if let Ok(true) = step_at_once(model, control, of_stages, step, x, torques) {
+            if let Ok(true) = step_at_once(model, control, time, step, x, torques) {
                 return Ok(());
             }
         }
         self.step_by_stages(model, control, time, step, x, torques)
     }
 
-    /// The step in the workspace, with a look at each stage.
+    /// The step in the workspace, with a look at each stage. As a part of [`robot_step`](Self::robot_step), it would make that 3 % longer
+    /// where vectors have four lanes.
     #[inline]
     fn step_by_stages<M: Model<T> + ?Sized>(
         &mut self,
@@ -135,7 +136,7 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
 fn step_at_once<T: Real, M: Model<T> + ?Sized>(
     model: &M,
     control: &mut (impl Control<T, M> + ?Sized),
-    [first, second, third, fourth]: [(T, T, T); 4],
+    time: T,
     step: T,
     x: &mut [T],
     torques: &mut [T],
@@ -149,6 +150,7 @@ fn step_at_once<T: Real, M: Model<T> + ?Sized>(
     ];
     copy(x, start);
     copy(x, stage);
+    let [first, second, third, fourth] = stages(step).map(|(at, weight, next)| (time + at, weight, next));
     // slopes depend on all numbers but the place of the base: the places of all stages are finite where their sum is
     let mut places = [T::ZERO; 3];
     // four times in the text: of a loop's vectors, the numbers would not be in registers
