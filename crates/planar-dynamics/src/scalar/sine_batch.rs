@@ -1,16 +1,14 @@
-//! Sines and cosines of several angles of one configuration at once, in SIMD lanes.
+//! Sines and cosines of several angles of one configuration at once, in SIMD lanes. Those of far angles are put together in lanes, so
+//! that they meet the others' in registers: numbers that a function may have written stay in memory, in any case, and vectors that are
+//! loaded from there wait.
 
 #![allow(clippy::inline_always, reason = "a call would pass all angles and results through memory")]
-
-mod wide;
 
 use super::portable;
 use super::sine::double::{any_sum, terms};
 use super::sine_lanes::near_f64x4;
-use ::wide::f64x4;
-
-/// Whether four lanes are one register.
-const WIDE: bool = cfg!(target_feature = "avx");
+use core::array::from_fn;
+use wide::f64x4;
 
 /// The terms of angles that are no sums: one that is infinite stays so.
 const NO_SUM: f64 = f64::NAN;
@@ -21,10 +19,7 @@ pub(super) fn sin_cos_all_f64<const N: usize>(angles: [f64; N]) -> [(f64, f64); 
     if N < 3 {
         return portable::sin_cos_all_f64(angles);
     }
-    if WIDE {
-        return wide::of_each(angles, || NO_SUM);
-    }
-    of_each(angles, |a, b| one_by_one(a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3], NO_SUM))
+    of_each(angles, || NO_SUM)
 }
 
 /// (sine, cosine) of sums, rad: `Scalar::sin_cos_of_sums`.
@@ -37,25 +32,7 @@ pub(super) fn sin_cos_of_sums_f64<const N: usize, const K: usize, const M: usize
     if N < 3 {
         return portable::sin_cos_of_sums_f64(sums, some, others);
     }
-    if WIDE {
-        return wide::of_each(sums, || terms(some, others));
-    }
-    of_each(sums, |a, b| one_by_one(a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3], terms(some, others)))
-}
-
-/// (sine, cosine) of each angle, rad; `far` is for eight of which any may be far.
-#[inline(always)]
-fn of_each<const N: usize>(angles: [f64; N], far: impl Fn([f64; 4], [f64; 4]) -> Pairs) -> [(f64, f64); N] {
-    let mut results = [(0.0, 0.0); N];
-    let mut from = 0;
-    while from < N {
-        let angle = |i: usize| angles.get(from + i).copied().unwrap_or(0.0);
-        let [first, second] = [0, 4].map(|i| [angle(i), angle(i + 1), angle(i + 2), angle(i + 3)]);
-        let pairs = if from + 4 < N { eight(first, second, &far) } else { four(first, &far) };
-        results.iter_mut().skip(from).zip(pairs).for_each(|(result, pair)| *result = pair);
-        from += COUNT;
-    }
-    results
+    of_each(sums, || terms(some, others))
 }
 
 /// Angles at once.
@@ -63,24 +40,50 @@ const COUNT: usize = 8;
 
 type Pairs = [(f64, f64); COUNT];
 
+/// (sine, cosine) of each angle, rad; the terms are asked for where one is far.
+#[inline(always)]
+fn of_each<const N: usize>(angles: [f64; N], terms: impl Fn() -> f64) -> [(f64, f64); N] {
+    if N <= COUNT {
+        let pairs = of_some(&angles, 0, terms);
+        return from_fn(|i| pairs.get(i).copied().unwrap_or_default());
+    }
+    let mut results = [(0.0, 0.0); N];
+    let mut from = 0;
+    while from < N {
+        let pairs = of_some(&angles, from, &terms);
+        results.iter_mut().skip(from).zip(pairs).for_each(|(result, pair)| *result = pair);
+        from += COUNT;
+    }
+    results
+}
+
+/// The same from an angle on.
+#[inline(always)]
+fn of_some<const N: usize>(angles: &[f64; N], from: usize, terms: impl Fn() -> f64) -> Pairs {
+    // the last one again in lanes that have none: it is in a register, and a 0 would have to be put beside it
+    let angle = |i: usize| angles.get(from + i).or(angles.last()).copied().unwrap_or(0.0);
+    let [first, second] = [0, 4].map(|i| [angle(i), angle(i + 1), angle(i + 2), angle(i + 3)]);
+    if from + 4 < N { eight(first, second, terms) } else { four(first, terms) }
+}
+
 /// Two vectors at once, whose operations fill each other's waiting times.
 #[inline(always)]
-fn eight(first: [f64; 4], second: [f64; 4], far: impl Fn([f64; 4], [f64; 4]) -> Pairs) -> Pairs {
-    let ((sine, cosine), is_far) = near_f64x4(first.into());
-    let ((next_sine, next_cosine), is_further) = near_f64x4(second.into());
+fn eight(first: [f64; 4], second: [f64; 4], terms: impl Fn() -> f64) -> Pairs {
+    let (mut sines, is_far) = near_f64x4(first.into());
+    let (mut next_sines, is_further) = near_f64x4(second.into());
     if (is_far | is_further).any() {
-        return far(first, second);
+        (sines, next_sines) = (far(first, terms()), far(second, terms()));
     }
-    pairs((sine, cosine), (next_sine, next_cosine))
+    pairs(sines, next_sines)
 }
 
 #[inline(always)]
-fn four(angles: [f64; 4], far: impl Fn([f64; 4], [f64; 4]) -> Pairs) -> Pairs {
-    let ((sine, cosine), is_far) = near_f64x4(angles.into());
+fn four(angles: [f64; 4], terms: impl Fn() -> f64) -> Pairs {
+    let (mut sines, is_far) = near_f64x4(angles.into());
     if is_far.any() {
-        return far(angles, [0.0; 4]);
+        sines = far(angles, terms());
     }
-    pairs((sine, cosine), (f64x4::ZERO, f64x4::ZERO))
+    pairs(sines, (f64x4::ZERO, f64x4::ZERO))
 }
 
 /// (sine, cosine) of each lane of two vectors.
@@ -100,10 +103,16 @@ fn pairs((sine, cosine): (f64x4, f64x4), (next_sine, next_cosine): (f64x4, f64x4
     ]
 }
 
-/// The angles are not passed as arrays, which would keep them in memory wherever this may be called.
+/// (sines, cosines) of angles any of which may be far.
+#[inline(always)]
+fn far([a, b, c, d]: [f64; 4], terms: f64) -> (f64x4, f64x4) {
+    let [a, b, c, d] = [one(a, terms), one(b, terms), one(c, terms), one(d, terms)];
+    ([a.0, b.0, c.0, d.0].into(), [a.1, b.1, c.1, d.1].into())
+}
+
+/// An angle and two numbers, all in registers.
 #[cold]
 #[inline(never)]
-#[allow(clippy::too_many_arguments, clippy::many_single_char_names, reason = "registers")]
-fn one_by_one(a: f64, b: f64, c: f64, d: f64, e: f64, f: f64, g: f64, h: f64, terms: f64) -> Pairs {
-    [a, b, c, d, e, f, g, h].map(|angle| any_sum(angle, terms).into_tuple())
+fn one(angle: f64, terms: f64) -> (f64, f64) {
+    any_sum(angle, terms).into_tuple()
 }
