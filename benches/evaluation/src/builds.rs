@@ -1,14 +1,16 @@
 //! The same program built with several sets of compiler flags, which measure in turns.
 
+use crate::Interpreters;
 use crate::engines::{self, ENGINES, PACKAGE};
-use crate::{Interpreters, Problem};
+use evaluation::Problem;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Name, flags of the compiler, and whether products and sums are fused.
-pub const BUILDS: [(&str, &str, bool); 4] = [
+pub const BUILDS: [(&str, &str, bool); 5] = [
     ("default x86-64", "", false),
+    ("x86-64-v3", "-C target-cpu=x86-64-v3", false),
     ("x86-64-v3, fused", "-C target-cpu=x86-64-v3", true),
     ("native", "-C target-cpu=native", false),
     ("native, fused", "-C target-cpu=native", true),

@@ -1,7 +1,7 @@
 //! Pinocchio and MuJoCo, compiled as C++ against the headers and the library of their Python packages, and this project's own
 //! package of Python.
 
-use crate::Problem;
+use evaluation::Problem;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -1,18 +1,21 @@
 //! What other engines compute with: the robot, states, and the results of generated code, as numbers in a text.
 
 use crate::Problem;
-use crate::measure::{ANGLES, STEP};
+use crate::measure::{ANGLES, STEP, layout};
 use crate::runge_kutta::GAINS;
 use crate::states::states;
 use planar_capture::generated::dual_arm_3r::Model;
-use planar_layout::layout::Layout;
 use std::path::Path;
 
 /// How many states.
 const COUNT: usize = 64;
 
 /// Writes the numbers in the order of `engines/input.hpp`.
-pub fn write(layout: &Layout, path: &Path) -> Result<(), Problem> {
+///
+/// # Errors
+/// Where the layout cannot be read, or the file not written.
+pub fn write(path: &Path) -> Result<(), Problem> {
+    let layout = layout()?;
     let mut numbers = vec![layout.base.mass, layout.base.inertia];
     #[allow(clippy::cast_precision_loss, reason = "few")]
     let count = |count: usize| count as f64;

@@ -1,6 +1,7 @@
 //! What a core cannot do faster: operations of an evaluation, and how many of them it makes in a second at most.
 
-use crate::measure::{consume, each};
+use crate::clock::Clock;
+use crate::measure::consume;
 use crate::states::State;
 use planar_capture::generated::dual_arm_3r::Model;
 use planar_capture::scalar::Scalar;
@@ -21,10 +22,12 @@ type Register = wide::f64x2;
 const SUMS: usize = 12;
 const TURNS: u16 = 1000;
 
-/// Nanoseconds per operation, of products and sums of numbers that are in registers.
-pub fn nanoseconds_per_operation() -> f64 {
+/// Products and sums of numbers that are in registers.
+pub fn operation(clock: &mut impl Clock) {
     let constants = [0.999, 1e-3].map(Register::constant);
-    let time = each(&[constants], |&[factor, addend]| {
+    let lanes = size_of::<Register>() / size_of::<f64>();
+    let operations = u32::from(TURNS) * u32::try_from(2 * SUMS * lanes).expect("some hundred");
+    clock.each("operation at the peak", operations, &[constants], |&[factor, addend]| {
         let mut sums = [factor; SUMS];
         for _ in 0..TURNS {
             for sum in &mut sums {
@@ -33,10 +36,6 @@ pub fn nanoseconds_per_operation() -> f64 {
         }
         black_box(sums);
     });
-    let lanes = size_of::<Register>() / size_of::<f64>();
-    #[allow(clippy::cast_precision_loss, reason = "some hundred")]
-    let operations = f64::from(TURNS) * (2 * SUMS * lanes) as f64;
-    time / operations
 }
 
 thread_local! {

@@ -5,39 +5,23 @@
 //! medians and ratios to `docs/performance.md` and `target/performance.json`. With `measure` it is one of these builds; with
 //! `input FILE` one writes what the engines compute with.
 
-#[cfg(feature = "measure")]
-mod batch;
 mod builds;
-#[cfg(feature = "measure")]
-mod casadi;
-#[cfg(feature = "measure")]
-mod derivatives;
 mod engines;
-#[cfg(feature = "measure")]
-mod input;
-#[cfg(feature = "measure")]
-mod limit;
-#[cfg(feature = "measure")]
-mod measure;
 mod report;
-#[cfg(feature = "measure")]
-mod runge_kutta;
-#[cfg(feature = "measure")]
-mod states;
 
+use evaluation::Problem;
+#[cfg(feature = "measure")]
+use evaluation::{clock::ThreadTime, input, measure};
 use std::process::ExitCode;
-
-/// Any error.
-type Problem = Box<dyn std::error::Error>;
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let done = match arguments.as_slice() {
         #[cfg(feature = "measure")]
-        ["measure"] => measure::print(),
+        ["measure"] => print(),
         #[cfg(feature = "measure")]
-        ["input", file] => measure::layout().and_then(|layout| input::write(&layout, file.as_ref())),
+        ["input", file] => input::write(file.as_ref()),
         arguments => options(arguments)
             .and_then(|(rounds, interpreters)| builds::run(rounds, interpreters))
             .and_then(|measured| report::write(&measured)),
@@ -49,6 +33,18 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// Measures, and prints names and times as JSON.
+#[cfg(feature = "measure")]
+fn print() -> Result<(), Problem> {
+    let mut times = ThreadTime::default();
+    measure::all(&mut times)?;
+    let operations = measure::operations().map(|(name, count)| (format!("operations, {name}"), f64::from(count)));
+    let all: serde_json::Map<_, _> =
+        times.0.into_iter().chain(operations).map(|(name, value)| (name, value.into())).collect();
+    println!("{}", serde_json::Value::Object(all));
+    Ok(())
 }
 
 /// Interpreters of Python.

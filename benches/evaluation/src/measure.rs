@@ -1,19 +1,23 @@
-//! What one build measures: nanoseconds of processor time per evaluation.
+//! All that is measured.
 
 use crate::Problem;
 use crate::batch::Arrays;
 use crate::casadi::{self, Results};
+use crate::clock::Clock;
 use crate::derivatives::{self, derivatives};
 use crate::limit;
 use crate::runge_kutta::{self, GAINS, Motion, Vector, parts, torques};
 use crate::states::{State, states};
 use planar_build::prove::generic::Generic;
-use planar_capture::control::ProportionalDerivative;
-use planar_capture::dynamics::{ForwardDynamics, Impact, ReducedDynamics};
+use planar_capture::control::{Control, ProportionalDerivative};
+use planar_capture::dynamics::{AnyModel, ForwardDynamics as _, Impact as _, Model, ReducedDynamics as _};
 use planar_capture::error::Error;
-use planar_capture::generated::dual_arm_3r::{FullImpact, Model, ReducedImpact};
+use planar_capture::generated::dual_arm_3r::{
+    ForwardDynamics, FullImpact, Model as Robot, ReducedDynamics, ReducedImpact,
+};
 use planar_capture::integrate::RungeKutta4;
 use planar_capture::owned::RobotState;
+use planar_capture::scalar::Scalar;
 use planar_capture::simulate::conservation::{AccumulatedInput, ConservationAudit};
 use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::system::System;
@@ -22,137 +26,99 @@ use planar_capture::state::{Forces, State as View, vector_length};
 use planar_capture::target::Target;
 use planar_capture::trajectory::ConstantSetpoint;
 use planar_layout::layout::Layout;
-use rustix::time::{ClockId, clock_gettime};
-use serde_json::{Map, Value};
 use std::hint::black_box;
 use std::path::Path;
-use wide::{f32x8, f32x16, f64x4, f64x8};
+use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
 
 /// States that stay in the first-level cache, and that do not.
 const FEW: usize = 64;
 const MANY: usize = 16_384;
-/// Least time of a measurement, s.
-const LEAST: f64 = 0.02;
 /// Largest difference from CasADi's results, relative to 1 or the value.
 const AGREEMENT: f64 = 1e-11;
 
-/// Joint angles at the start of a motion, rad; its step, s; and the number of steps until the robot is at rest.
+/// Joint angles at the start of a motion, rad.
 pub const ANGLES: [f64; 6] = [0.3, -0.4, 0.5, -0.3, 0.4, -0.5];
+/// Step of a motion, s.
 pub const STEP: f64 = 1e-3;
+/// Number of steps until the robot is at rest.
 const STEPS: u32 = 20_000;
-
-/// Forward dynamics of as many states at once as there are lanes, per state.
-macro_rules! per_lane {
-    ($lanes:ty, $float:ty, $count:literal, $states:expr, $from:expr) => {{
-        let lanes: fn([$float; $count]) -> $lanes = $from;
-        let model = black_box(Model::<$lanes>::default());
-        #[allow(clippy::cast_possible_truncation, clippy::cast_lossless, reason = "rounding to the lane")]
-        let vectors: Vec<_> = $states
-            .chunks_exact($count)
-            .map(|states| {
-                let lane = |of: &dyn Fn(&State) -> f64| -> $lanes {
-                    lanes(std::array::from_fn::<$float, $count, _>(|k| of(&states[k]) as $float))
-                };
-                (
-                    std::array::from_fn(|i| lane(&|s| s.base_pose[i])),
-                    std::array::from_fn(|i| lane(&|s| s.joint_angles[i])),
-                    std::array::from_fn(|i| lane(&|s| s.base_twist[i])),
-                    std::array::from_fn(|i| lane(&|s| s.joint_rates[i])),
-                    std::array::from_fn(|i| lane(&|s| s.torques[i])),
-                )
-            })
-            .collect();
-        each(&vectors, |(pose, angles, twist, rates, torques)| {
-            black_box(model.forward_dynamics(pose, angles, twist, rates, torques));
-        }) / f64::from($count)
-    }};
-}
+/// Numbers of a vector of the library's.
+const LENGTH: usize = vector_length(6);
 
 /// The paper's robot.
+///
+/// # Errors
+/// Where its layout cannot be read.
 pub fn layout() -> Result<Layout, Problem> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../codegen/layouts/dual_arm_3r.toml");
     Layout::read(&path).map_err(|report| report.to_string().into())
 }
 
-/// Compares with CasADi, measures, and prints names and times as JSON.
-pub fn print() -> Result<(), Problem> {
+/// Compares with CasADi, and times all.
+///
+/// # Errors
+/// Where generated code and CasADi's differ.
+pub fn all(clock: &mut impl Clock) -> Result<(), Problem> {
     // whose numbers the compiler does not know
-    let (generic, model) = (Generic::new(&layout()?), black_box(Model::<f64>::default()));
+    let (generic, model) = (Generic::new(&layout()?), black_box(Robot::<f64>::default()));
     let (few, many) = (states(FEW), states(MANY));
     compare(&model, &few)?;
-    let mut times = Map::new();
-    let mut record = |name: &str, time: f64| drop(times.insert(name.to_owned(), Value::from(time)));
 
     let mut results = Results::default();
-    record("C, forward dynamics", each(&few, |s| casadi::forward_dynamics(s, &mut results)));
-    record("C, derivatives", each(&few, |s| casadi::derivatives(s, &mut results)));
-    record("C, reduced dynamics", each(&few, |s| casadi::reduced_dynamics(s, &mut results)));
-    record("C, reduced impact", each(&few, |s| casadi::reduced_impact(s, &mut results)));
-    record("C, full impact", each(&few, |s| casadi::full_impact(s, &mut results)));
-    record("C, forward dynamics, many states", each(&many, |s| casadi::forward_dynamics(s, &mut results)));
-    record("C, reduced dynamics, many states", each(&many, |s| casadi::reduced_dynamics(s, &mut results)));
-    record("C, reduced impact, many states", each(&many, |s| casadi::reduced_impact(s, &mut results)));
-    record("C, full impact, many states", each(&many, |s| casadi::full_impact(s, &mut results)));
-    record("C, step", steps(&ByC));
+    clock.each("C, forward dynamics", 1, &few, |s| casadi::forward_dynamics(s, &mut results));
+    clock.each("C, derivatives", 1, &few, |s| casadi::derivatives(s, &mut results));
+    clock.each("C, reduced dynamics", 1, &few, |s| casadi::reduced_dynamics(s, &mut results));
+    clock.each("C, reduced impact", 1, &few, |s| casadi::reduced_impact(s, &mut results));
+    clock.each("C, full impact", 1, &few, |s| casadi::full_impact(s, &mut results));
+    clock.each("C, forward dynamics, many states", 1, &many, |s| casadi::forward_dynamics(s, &mut results));
+    clock.each("C, reduced dynamics, many states", 1, &many, |s| casadi::reduced_dynamics(s, &mut results));
+    clock.each("C, reduced impact, many states", 1, &many, |s| casadi::reduced_impact(s, &mut results));
+    clock.each("C, full impact, many states", 1, &many, |s| casadi::full_impact(s, &mut results));
     black_box(&results);
+    steps(clock, "C, step", &ByC);
 
-    let forward = |s: &State| {
-        black_box(model.forward_dynamics(&s.base_pose, &s.joint_angles, &s.base_twist, &s.joint_rates, &s.torques));
-    };
-    record("f64, forward dynamics", each(&few, forward));
-    record("f64, forward dynamics, many states", each(&many, forward));
+    let forward = |s: &State| consume(forward_dynamics(&model, s));
+    clock.each("f64, forward dynamics", 1, &few, forward);
+    clock.each("f64, forward dynamics, many states", 1, &many, forward);
     let with_derivatives = black_box(derivatives::Model::default());
-    record(
-        "f64, derivatives",
-        each(&few, |s| {
-            black_box(derivatives(&with_derivatives, s));
-        }),
-    );
-    record(
-        "f64, reduced dynamics",
-        each(&few, |s| {
-            black_box(model.reduced_dynamics(&s.base_pose, &s.joint_angles, &s.base_twist, &s.joint_rates));
-        }),
-    );
-    record("f64, reduced impact", each(&few, |s| consume(reduced_impact(&model, s))));
-    record("f64, full impact", each(&few, |s| consume(full_impact(&model, s))));
-    record("f64, step", steps(&ByModel(&model)));
-    record("f64, called step", steps(&ByCalls(&model)));
-    record("library, step", library_steps(&model));
-    record("simulation, step", simulated_steps(&model));
-    record("audit, step", audited_states(&model, &few)?);
+    clock.each("f64, derivatives", 1, &few, |s| consume(derivatives(&with_derivatives, s)));
+    clock.each("f64, reduced dynamics", 1, &few, |s| consume(reduced_dynamics(&model, s)));
+    clock.each("f64, reduced impact", 1, &few, |s| consume(reduced_impact(&model, s)));
+    clock.each("f64, full impact", 1, &few, |s| consume(full_impact(&model, s)));
+    steps(clock, "f64, step", &ByModel(&model));
+    steps(clock, "f64, called step", &ByCalls(&model));
+    library_steps(clock, "library, step", &model, &mut { LAW }, [0.0; LENGTH], [0.0; 6]);
+    let (any, mut law): (&AnyModel<f64>, _) = (black_box(&model), LAW);
+    let law: &mut dyn Control<f64> = black_box(&mut law);
+    let [x, torques] = black_box([LENGTH, 6]).map(|length| vec![0.0; length]);
+    library_steps(clock, "library, step of any robot", any, law, x, torques);
+    simulated_steps(clock, &model);
+    audited_states(clock, &model, &few)?;
 
-    record("f32, forward dynamics", per_lane!(f32, f32, 1, few, |[value]| value));
-    record("f64x4, forward dynamics", per_lane!(f64x4, f64, 4, few, f64x4::from));
-    record("f64x8, forward dynamics", per_lane!(f64x8, f64, 8, few, f64x8::from));
-    record("f32x8, forward dynamics", per_lane!(f32x8, f32, 8, few, f32x8::from));
-    record("f32x16, forward dynamics", per_lane!(f32x16, f32, 16, few, f32x16::from));
+    forward_dynamics_in_lanes(clock, "f32", &few, |[value]: [f64; 1]| single(value));
+    forward_dynamics_in_lanes(clock, "f32x4", &few, |values| f32x4::from(values.map(single)));
+    forward_dynamics_in_lanes(clock, "f32x8", &few, |values| f32x8::from(values.map(single)));
+    forward_dynamics_in_lanes(clock, "f32x16", &few, |values| f32x16::from(values.map(single)));
+    forward_dynamics_in_lanes(clock, "f64x2", &few, f64x2::from);
+    forward_dynamics_in_lanes(clock, "f64x4", &few, f64x4::from);
+    forward_dynamics_in_lanes(clock, "f64x8", &few, f64x8::from);
+    others_in_lanes(clock, "f64x8", &few, f64x8::from);
 
-    for (states, suffix) in [(&few, ""), (&many, ", many states")] {
-        let mut arrays = Arrays::new(states);
-        arrays.compare(&model, states, AGREEMENT)?;
-        let mut of = |function: fn(&mut Arrays, &Model<f64>) -> Result<(), Error>| {
-            #[allow(clippy::cast_precision_loss, reason = "thousands")]
-            let count = states.len() as f64;
-            each(&[()], |()| consume(function(black_box(&mut arrays), &model))) / count
-        };
-        record(&format!("batch, forward dynamics{suffix}"), of(Arrays::forward_dynamics));
-        record(&format!("batch, reduced dynamics{suffix}"), of(Arrays::reduced_dynamics));
-        record(&format!("batch, reduced impact{suffix}"), of(Arrays::reduced_impact));
-        record(&format!("batch, full impact{suffix}"), of(Arrays::full_impact));
-        record(&format!("batch, step{suffix}"), of(Arrays::step));
-    }
+    batches(clock, "", &model, &few)?;
+    batches(clock, ", many states", &model, &many)?;
 
-    record("generic, forward dynamics", each(&few, |s| consume(of_generic(&generic, s))));
-    record("generic, reduced dynamics", each(&few, |s| consume(reduced_of_generic(&generic, s))));
-    record("generic, full impact", each(&few, |s| consume(impact_of_generic(&generic, s))));
-    record("operation at the peak", limit::nanoseconds_per_operation());
-    let names = ["forward dynamics", "reduced dynamics", "reduced impact", "full impact"];
-    for (name, operations) in names.iter().zip(limit::operations(&few[0])) {
-        record(&format!("operations, {name}"), f64::from(operations));
-    }
-    println!("{}", Value::Object(times));
+    clock.each("generic, forward dynamics", 1, &few, |s| consume(of_generic(&generic, s)));
+    clock.each("generic, reduced dynamics", 1, &few, |s| consume(reduced_of_generic(&generic, s)));
+    clock.each("generic, full impact", 1, &few, |s| consume(impact_of_generic(&generic, s)));
+    limit::operation(clock);
     Ok(())
+}
+
+/// Operations of evaluations, by their names.
+pub fn operations() -> impl Iterator<Item = (&'static str, u32)> {
+    ["forward dynamics", "reduced dynamics", "reduced impact", "full impact"]
+        .into_iter()
+        .zip(limit::operations(&states(1)[0]))
 }
 
 /// Keeps the compiler from leaving out what has no use.
@@ -160,30 +126,13 @@ pub fn consume<T>(result: T) {
     let _ = black_box(result);
 }
 
-/// Nanoseconds of this thread's processor time per call, over all states again and again.
-pub fn each<S>(states: &[S], mut evaluate: impl FnMut(&S)) -> f64 {
-    let mut pass = || states.iter().for_each(|state| evaluate(black_box(state)));
-    pass();
-    let mut passes = 1_u32;
-    loop {
-        let start = seconds();
-        (0..passes).for_each(|_| pass());
-        let time = seconds() - start;
-        if time >= LEAST {
-            #[allow(clippy::cast_precision_loss, reason = "thousands")]
-            return time * 1e9 / (f64::from(passes) * states.len() as f64);
-        }
-        passes *= 2;
-    }
-}
-
-/// Nanoseconds per Runge–Kutta step of a motion under control.
-fn steps(motion: &impl Motion) -> f64 {
+/// Runge–Kutta steps of a motion under control, by hand.
+fn steps(clock: &mut impl Clock, name: &str, motion: &impl Motion) {
     let mut start = [0.0; 18];
     start[3..9].copy_from_slice(&ANGLES);
     let mut x = start;
     let mut count = 0;
-    let time = each(&[()], |()| {
+    clock.each(name, 1, &[()], |()| {
         if count % STEPS == 0 {
             x = start;
         }
@@ -191,7 +140,6 @@ fn steps(motion: &impl Motion) -> f64 {
         runge_kutta::step(motion, &mut x, STEP);
     });
     black_box(x);
-    time
 }
 
 /// A law that holds the joints at 0.
@@ -201,57 +149,104 @@ const LAW: ProportionalDerivative<'static, f64, ConstantSetpoint<'static, f64>> 
     derivative_gain: &[GAINS[1]; 6],
 };
 
-/// As [`steps`], by integrator, law and equation of the library.
-fn library_steps(model: &Model<f64>) -> f64 {
-    let mut start = [0.0; vector_length(6)];
-    start[3..9].copy_from_slice(&ANGLES);
-    let mut x = start;
-    let (mut workspace, mut torques, mut law) = ([0.0; 3 * vector_length(6)], [0.0; 6], LAW);
+/// As [`steps`], by integrator, law and equation of the library, with vectors of the caller's: of known lengths where they are arrays.
+fn library_steps<M: Model<f64> + ?Sized>(
+    clock: &mut impl Clock,
+    name: &str,
+    model: &M,
+    law: &mut (impl Control<f64, M> + ?Sized),
+    mut x: impl AsMut<[f64]>,
+    mut torques: impl AsMut<[f64]>,
+) {
+    let mut workspace = [0.0; 3 * LENGTH];
     let mut integrator = RungeKutta4::new(&mut workspace).expect("three vectors");
     let mut count = 0;
-    let time = each(&[()], |()| {
+    clock.each(name, 1, &[()], |()| {
+        let x = x.as_mut();
         if count % STEPS == 0 {
-            x = start;
+            x.fill(0.0);
+            x[3..9].copy_from_slice(&ANGLES);
         }
         count += 1;
-        integrator.robot_step(model, &mut law, 0.0, STEP, &mut x, &mut torques).expect("a regular state");
+        integrator.robot_step(model, law, 0.0, STEP, x, torques.as_mut()).expect("a regular state");
     });
-    black_box(x);
-    time
+    black_box(x.as_mut());
 }
 
 /// As [`library_steps`], by a simulation that audits every step.
-fn simulated_steps(model: &Model<f64>) -> f64 {
-    let (start, mut law) = (
-        RobotState {
-            joint_angles: ANGLES.to_vec(),
-            joint_rates: vec![0.0; 6],
-            base_pose: [0.0; 3],
-            base_twist: [0.0; 3],
-        },
-        LAW,
-    );
+fn simulated_steps(clock: &mut impl Clock, model: &Robot<f64>) {
+    let (joint_angles, joint_rates) = (ANGLES.to_vec(), vec![0.0; 6]);
+    let start = RobotState { joint_angles, joint_rates, base_pose: [0.0; 3], base_twist: [0.0; 3] };
     let duration = STEP * f64::from(STEPS);
     let timing = Timing { duration, step: STEP, sample: duration, ..Timing::default() };
-    let mut run = |()| simulate(&System::alone(model), &mut law, &start, &timing, &mut NoEvents, &mut || ());
-    each(&[()], |()| consume(run(()))) / f64::from(STEPS)
+    clock.each("simulation, step", STEPS, &[()], |()| {
+        consume(simulate(&System::alone(model), &mut { LAW }, &start, &timing, &mut NoEvents, &mut || ()));
+    });
 }
 
-/// Nanoseconds per state of the audit that a simulation makes at every step.
-fn audited_states(model: &Model<f64>, states: &[State]) -> Result<f64, Error> {
-    let mut vectors = vec![[0.0; vector_length(6)]; states.len()];
+/// The audit that a simulation makes at every step.
+fn audited_states(clock: &mut impl Clock, model: &Robot<f64>, states: &[State]) -> Result<(), Error> {
+    let mut vectors = vec![[0.0; LENGTH]; states.len()];
     states.iter().zip(&mut vectors).try_for_each(|(state, vector)| view(state).write(vector))?;
     let mut audit = ConservationAudit::new(model, &view(&states[0]), &[])?;
     let input = AccumulatedInput::default();
-    let time = each(&vectors, |vector| audit.record_vector(vector, &input).expect("a finite state"));
+    clock.each("audit, step", 1, &vectors, |vector| audit.record_vector(vector, &input).expect("a finite state"));
     consume(audit.drift());
-    Ok(time)
+    Ok(())
 }
 
-#[allow(clippy::cast_precision_loss, reason = "nanoseconds of minutes")]
-fn seconds() -> f64 {
-    let time = clock_gettime(ClockId::ThreadCPUTime);
-    time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
+#[allow(clippy::cast_possible_truncation, reason = "rounding to the lane")]
+fn single(value: f64) -> f32 {
+    value as f32
+}
+
+/// The model and the states of a scalar that is as many numbers, or one.
+fn in_lanes<T: Scalar, const N: usize>(states: &[State], lanes: impl Fn([f64; N]) -> T) -> (Robot<T>, Vec<State<T>>) {
+    (black_box(Robot::default()), states.as_chunks().0.iter().map(|states| State::in_lanes(states, &lanes)).collect())
+}
+
+/// Forward dynamics of as many states at once as there are lanes.
+fn forward_dynamics_in_lanes<T: Scalar, const N: usize>(
+    clock: &mut impl Clock,
+    scalar: &str,
+    states: &[State],
+    lanes: impl Fn([f64; N]) -> T,
+) {
+    let (model, states) = in_lanes(states, lanes);
+    clock.each(&format!("{scalar}, forward dynamics"), count(N), &states, |s| consume(forward_dynamics(&model, s)));
+}
+
+/// The other functions.
+fn others_in_lanes<T: Scalar, const N: usize>(
+    clock: &mut impl Clock,
+    scalar: &str,
+    states: &[State],
+    lanes: impl Fn([f64; N]) -> T,
+) {
+    let (model, states) = in_lanes(states, lanes);
+    clock.each(&format!("{scalar}, reduced dynamics"), count(N), &states, |s| consume(reduced_dynamics(&model, s)));
+    clock.each(&format!("{scalar}, reduced impact"), count(N), &states, |s| consume(reduced_impact(&model, s)));
+    clock.each(&format!("{scalar}, full impact"), count(N), &states, |s| consume(full_impact(&model, s)));
+}
+
+/// Structures of arrays.
+fn batches(clock: &mut impl Clock, suffix: &str, model: &Robot<f64>, states: &[State]) -> Result<(), Problem> {
+    let mut arrays = Arrays::new(states);
+    arrays.compare(model, states, AGREEMENT)?;
+    let mut time = |name: &str, function: fn(&mut Arrays, &Robot<f64>) -> Result<(), Error>| {
+        let name = format!("batch, {name}{suffix}");
+        clock.each(&name, count(states.len()), &[()], |()| consume(function(black_box(&mut arrays), model)));
+    };
+    time("forward dynamics", Arrays::forward_dynamics);
+    time("reduced dynamics", Arrays::reduced_dynamics);
+    time("reduced impact", Arrays::reduced_impact);
+    time("full impact", Arrays::full_impact);
+    time("step", Arrays::step);
+    Ok(())
+}
+
+fn count(states: usize) -> u32 {
+    u32::try_from(states).expect("thousands")
 }
 
 /// By CasADi's C code, which is called.
@@ -265,7 +260,7 @@ impl Motion for ByC {
 }
 
 /// By generated code, inlined.
-struct ByModel<'a>(&'a Model<f64>);
+struct ByModel<'a>(&'a Robot<f64>);
 
 impl Motion for ByModel<'_> {
     #[inline(always)]
@@ -278,7 +273,7 @@ impl Motion for ByModel<'_> {
 }
 
 /// By generated code in a function that is called.
-struct ByCalls<'a>(&'a Model<f64>);
+struct ByCalls<'a>(&'a Robot<f64>);
 
 impl Motion for ByCalls<'_> {
     #[inline(never)]
@@ -293,11 +288,27 @@ fn joined(base: [f64; 3], joints: [f64; 6]) -> [f64; 9] {
     std::array::from_fn(|i| if i < 3 { base[i] } else { joints[i - 3] })
 }
 
-fn reduced_impact(model: &Model<f64>, s: &State) -> ReducedImpact<f64> {
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "as where it is written")]
+fn forward_dynamics<T: Scalar>(model: &Robot<T>, s: &State<T>) -> ForwardDynamics<T> {
+    model.forward_dynamics(&s.base_pose, &s.joint_angles, &s.base_twist, &s.joint_rates, &s.torques)
+}
+
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "as where it is written")]
+fn reduced_dynamics<T: Scalar>(model: &Robot<T>, s: &State<T>) -> ReducedDynamics<T> {
+    model.reduced_dynamics(&s.base_pose, &s.joint_angles, &s.base_twist, &s.joint_rates)
+}
+
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "as where it is written")]
+fn reduced_impact<T: Scalar>(model: &Robot<T>, s: &State<T>) -> ReducedImpact<T> {
     model.reduced_impact(&s.base_pose, &s.joint_angles, &s.joint_rates, &s.masses, &s.inertias, &s.contacts, &s.twists)
 }
 
-fn full_impact(model: &Model<f64>, s: &State) -> FullImpact<f64> {
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "as where it is written")]
+fn full_impact<T: Scalar>(model: &Robot<T>, s: &State<T>) -> FullImpact<T> {
     let (pose, twist) = (&s.base_pose, &s.base_twist);
     model.full_impact(pose, &s.joint_angles, twist, &s.joint_rates, &s.masses, &s.inertias, &s.contacts, &s.twists)
 }
@@ -334,7 +345,7 @@ fn impact_of_generic(generic: &Generic, s: &State) -> Result<[f64; 9], Error> {
 }
 
 /// Whether generated code and CasADi's agree.
-fn compare(model: &Model<f64>, states: &[State]) -> Result<(), Problem> {
+fn compare(model: &Robot<f64>, states: &[State]) -> Result<(), Problem> {
     let mut results = Results::default();
     for s in states {
         let check = |what: &str, found: &[f64], expected: &[f64]| {
@@ -344,7 +355,7 @@ fn compare(model: &Model<f64>, states: &[State]) -> Result<(), Problem> {
             first.map_or(Ok(()), |(a, b)| Err(Problem::from(format!("{what}: {a}, CasADi {b}"))))
         };
         casadi::forward_dynamics(s, &mut results);
-        let found = model.forward_dynamics(&s.base_pose, &s.joint_angles, &s.base_twist, &s.joint_rates, &s.torques);
+        let found = forward_dynamics(model, s);
         check("base acceleration", &found.base_acceleration, results.of(0, 3))?;
         check("joint accelerations", &found.joint_accelerations, results.of(1, 6))?;
         casadi::derivatives(s, &mut results);
@@ -355,7 +366,7 @@ fn compare(model: &Model<f64>, states: &[State]) -> Result<(), Problem> {
         check("derivatives by velocity", found.by_velocity.as_flattened(), results.of(3, 81))?;
         check("inverse mass matrix", found.inverse_mass_matrix.as_flattened(), results.of(4, 81))?;
         casadi::reduced_dynamics(s, &mut results);
-        let found = model.reduced_dynamics(&s.base_pose, &s.joint_angles, &s.base_twist, &s.joint_rates);
+        let found = reduced_dynamics(model, s);
         check("generalized inertia", found.generalized_inertia.as_flattened(), results.of(0, 36))?;
         check("generalized bias", &found.generalized_bias, results.of(1, 6))?;
         casadi::reduced_impact(s, &mut results);

@@ -1,8 +1,8 @@
 //! Medians and ratios as Markdown and JSON.
 
-use crate::Problem;
 use crate::builds::{BUILDS, Measured};
 use crate::engines::{ENGINES, PACKAGE};
+use evaluation::Problem;
 use serde_json::json;
 use std::fmt::Write;
 use std::path::Path;
@@ -48,21 +48,23 @@ const SIMULATION: &str = "
 
 Runge–Kutta steps of 1 ms with PD control, 20 s of motion, per step. By hand: the loop of the first table, over arrays, which looks at
 neither pivot nor numbers. The library's integrator, law and equation take slices, check the pivot and that numbers
-are finite, and integrate the work of the joints too. A simulation also audits momentum, energy and centre of mass at every step,
+are finite, and integrate the work of the joints too. All are generic over robot and law; those of any are `dyn`, and vectors of any
+length. A simulation, of any robot and law, also audits momentum, energy and centre of mass at every step,
 estimates the error of its path by steps of twice the length, and keeps its path. The audit alone is that of states in order, of
 which it takes eight at once.
 
 | |";
 
 /// Ratios of simulations: title, measurement, and what it is compared with.
-const SIMULATED: [(&str, &str, &str); 4] = [
+const SIMULATED: [(&str, &str, &str); 5] = [
     ("the library's, to that by hand", "library, step", "f64, step"),
     ("the library's, to that by hand with calls", "library, step", "f64, called step"),
+    ("the same of any robot and law, to the library's", "library, step of any robot", "library, step"),
     ("a simulation, to the library's", "simulation, step", "library, step"),
     ("its audit alone, to the library's", "audit, step", "library, step"),
 ];
 
-const LANES: [&str; 5] = ["f32", "f64x4", "f64x8", "f32x8", "f32x16"];
+const LANES: [&str; 7] = ["f32", "f32x4", "f32x8", "f32x16", "f64x2", "f64x4", "f64x8"];
 
 const BATCHES: &str = "
 ## Batches
@@ -87,6 +89,42 @@ const BATCHED: [(&str, &str, &str); 10] = [
     ("impact, exact, 16,384 states", "full impact, many states", "full impact, many states"),
     ("Runge–Kutta step, 64 states", "step", "step"),
     ("Runge–Kutta step, 16,384 states", "step, many states", "step"),
+];
+
+const BOUNDS: &str = "
+## Bounds
+
+The ratio of this run, and the largest that is meant to be; **bold** where it is above.
+
+| | default x86-64 | native, fused |
+|---|---|---|
+";
+
+/// Largest ratio that is meant to be.
+struct Bound {
+    title: &'static str,
+    /// The measurement, and what it is compared with.
+    of: [&'static str; 2],
+    /// In the default build, and in that native and fused.
+    most: [Option<f64>; 2],
+}
+
+const fn bound(title: &'static str, of: [&'static str; 2], most: [Option<f64>; 2]) -> Bound {
+    Bound { title, of, most }
+}
+
+const BOUNDED: [Bound; 11] = [
+    bound("forward dynamics", ["f64, forward dynamics", "C, forward dynamics"], [Some(0.73), Some(0.42)]),
+    bound("GIM, generalized bias and GJM", ["f64, reduced dynamics", "C, reduced dynamics"], [Some(0.64), Some(0.43)]),
+    bound("impact, paper's equations", ["f64, reduced impact", "C, reduced impact"], [Some(0.86), Some(0.60)]),
+    bound("impact, exact", ["f64, full impact", "C, full impact"], [Some(0.70), Some(0.44)]),
+    bound("Runge–Kutta step with PD control", ["f64, step", "C, step"], [Some(0.72), Some(0.48)]),
+    bound("forward dynamics in `f64x8`", ["f64x8, forward dynamics", "C, forward dynamics"], [None, Some(0.13)]),
+    bound("batches of forward dynamics", ["batch, forward dynamics", "C, forward dynamics"], [Some(0.15), None]),
+    bound("derivatives of forward dynamics", ["f64, derivatives", "C, derivatives"], [Some(1.0), Some(1.0)]),
+    bound("the same, to Pinocchio's", ["f64, derivatives", "Pinocchio, derivatives"], [None, Some(0.125)]),
+    bound("the library's step, to that by hand", ["library, step", "f64, step"], [Some(1.10), Some(1.10)]),
+    bound("the audit of a step, to the library's", ["audit, step", "library, step"], [Some(0.30), Some(0.30)]),
 ];
 
 const LIMIT: &str = "
@@ -158,20 +196,13 @@ pub fn write(measured: &[Measured]) -> Result<(), Problem> {
 
 fn markdown(all: &[Measured]) -> Result<String, Problem> {
     let (measured, others) = all.split_at(BUILDS.len());
-    let c = |name: &str| {
-        // C is compiled in the same way for every build
-        let of_builds = measured.iter().filter_map(|build| build.median(&format!("C, {name}")));
-        of_builds.min_by(f64::total_cmp).ok_or(format!("no time of C, {name}"))
-    };
+    let c = |name: &str| of_c(measured, &format!("C, {name}"));
     let mut text = HEAD.to_owned();
     let flags = BUILDS.map(|(name, flags, _)| format!("{name} `{flags}`").replace(" ``", " none"));
     writeln!(text, "Measured on: {}. `RUSTFLAGS`: {}.\n", machine().join("; "), flags.join(", "))?;
     text += "## Against CasADi's C\n\nRatio to the time of C; in brackets ns. C has the same flags in all builds: its time is the least of their medians.
 Spread is the larger quartile over the median, of all builds.\n\n| | C, ns |";
-    for (build, ..) in BUILDS {
-        write!(text, " {build} |")?;
-    }
-    text += " spread |\n|---|---|---|---|---|---|---|\n";
+    text += &heads(" spread |");
     for (title, name) in COMPARED {
         // C is called in any case
         let base = c(name.trim_start_matches("called "))?;
@@ -184,14 +215,12 @@ Spread is the larger quartile over the median, of all builds.\n\n| | C, ns |";
         let spread = measured.iter().filter_map(|build| build.spread(&key)).fold(0.0, f64::max);
         writeln!(text, " {:.0} % |", 100.0 * spread)?;
     }
+    text += &bounds(measured, others)?;
     text += &of_engines(measured, others)?;
     text += "\n## Other scalars\n\nForward dynamics, ns per state (one per lane), and the ratio to one state of CasADi's C.
 A single `f32` is slower than an `f64` although it has fewer terms: an `f64` has the sines of a state computed in four lanes, an `f32` one by
 one. It is there for processors that have `f32` alone, and as lanes.\n\n| |";
-    for (build, ..) in BUILDS {
-        write!(text, " {build} |")?;
-    }
-    text += "\n|---|---|---|---|---|\n";
+    text += &heads("");
     let base = c("forward dynamics")?;
     for scalar in LANES {
         write!(text, "| `{scalar}` |")?;
@@ -203,10 +232,7 @@ one. It is there for processors that have `f32` alone, and as lanes.\n\n| |";
         text += "\n";
     }
     text += SIMULATION;
-    for (build, ..) in BUILDS {
-        write!(text, " {build} |")?;
-    }
-    text += "\n|---|---|---|---|---|\n";
+    text += &heads("");
     for (title, name, base) in SIMULATED {
         write!(text, "| {title} |")?;
         for build in measured {
@@ -217,10 +243,7 @@ one. It is there for processors that have `f32` alone, and as lanes.\n\n| |";
         text += "\n";
     }
     text += BATCHES;
-    for (build, ..) in BUILDS {
-        write!(text, " {build} |")?;
-    }
-    text += " spread |\n|---|---|---|---|---|---|---|\n";
+    text += &heads(" spread |");
     for (title, name, c_name) in BATCHED {
         let base = c(c_name)?;
         write!(text, "| {title} | {base:.0} |")?;
@@ -235,10 +258,7 @@ one. It is there for processors that have `f32` alone, and as lanes.\n\n| |";
     text += &limit(measured)?;
     text += &from_python(measured, others)?;
     text += "\n## The generic implementation\n\nDense matrices of nalgebra, what one would write by hand: ratio to generated code of the same build.\n\n| |";
-    for (build, ..) in BUILDS {
-        write!(text, " {build} |")?;
-    }
-    text += "\n|---|---|---|---|---|\n";
+    text += &heads("");
     for (title, name) in [COMPARED[0], COMPARED[3], COMPARED[5]] {
         write!(text, "| {title} |")?;
         for build in measured {
@@ -251,6 +271,44 @@ one. It is there for processors that have `f32` alone, and as lanes.\n\n| |";
         text += "\n";
     }
     Ok(text)
+}
+
+/// The time of a measurement of C, which is compiled in the same way for every build.
+fn of_c(measured: &[Measured], name: &str) -> Result<f64, Problem> {
+    let of_builds = measured.iter().filter_map(|build| build.median(name));
+    of_builds.min_by(f64::total_cmp).ok_or(format!("no time of {name}").into())
+}
+
+/// Ratios beside those that are meant to be.
+fn bounds(measured: &[Measured], others: &[Measured]) -> Result<String, Problem> {
+    let mut text = BOUNDS.to_owned();
+    for Bound { title, of: [name, base], most } in BOUNDED {
+        let time_of_base = |build: &Measured| match base.split_once(", ") {
+            Some(("C", _)) => of_c(measured, base).ok(),
+            Some((engine, name)) if ENGINES.contains(&engine) => {
+                others.iter().find(|other| other.build == engine).and_then(|other| other.median(name))
+            }
+            _ => build.median(base),
+        };
+        write!(text, "| {title} |")?;
+        for (build, most) in [measured.first(), measured.last()].into_iter().flatten().zip(most) {
+            let ratio = build.median(name).zip(time_of_base(build)).map(|(time, base)| time / base);
+            match ratio.zip(most) {
+                Some((ratio, most)) if ratio > most => write!(text, " **{ratio:.3}** of {most} |")?,
+                Some((ratio, most)) => write!(text, " {ratio:.3} of {most} |")?,
+                None => text += " – |",
+            }
+        }
+        text += "\n";
+    }
+    Ok(text)
+}
+
+/// The names of the builds after a first cell, or two where a last one follows, with the line under them.
+fn heads(last: &str) -> String {
+    let names = BUILDS.map(|(build, ..)| build).join(" | ");
+    let others = if last.is_empty() { 1 } else { 3 };
+    format!(" {names} |{last}\n|{}\n", "---|".repeat(others + BUILDS.len()))
 }
 
 /// What other engines need, where they were measured.

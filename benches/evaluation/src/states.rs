@@ -2,19 +2,38 @@
 
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
+use std::array::from_fn;
 
 /// The inputs of all functions.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct State {
-    pub base_pose: [f64; 3],
-    pub joint_angles: [f64; 6],
-    pub base_twist: [f64; 3],
-    pub joint_rates: [f64; 6],
-    pub torques: [f64; 6],
-    pub masses: [f64; 2],
-    pub inertias: [f64; 2],
-    pub contacts: [[f64; 2]; 2],
-    pub twists: [[f64; 3]; 2],
+#[derive(Clone, Copy, Debug)]
+pub struct State<T = f64> {
+    pub base_pose: [T; 3],
+    pub joint_angles: [T; 6],
+    pub base_twist: [T; 3],
+    pub joint_rates: [T; 6],
+    pub torques: [T; 6],
+    pub masses: [T; 2],
+    pub inertias: [T; 2],
+    pub contacts: [[T; 2]; 2],
+    pub twists: [[T; 3]; 2],
+}
+
+impl<T> State<T> {
+    /// As many states as there are lanes.
+    pub fn in_lanes<const N: usize>(states: &[State; N], lanes: impl Fn([f64; N]) -> T) -> Self {
+        let each = |number: &dyn Fn(&State) -> f64| lanes(states.each_ref().map(number));
+        Self {
+            base_pose: from_fn(|i| each(&|s| s.base_pose[i])),
+            joint_angles: from_fn(|i| each(&|s| s.joint_angles[i])),
+            base_twist: from_fn(|i| each(&|s| s.base_twist[i])),
+            joint_rates: from_fn(|i| each(&|s| s.joint_rates[i])),
+            torques: from_fn(|i| each(&|s| s.torques[i])),
+            masses: from_fn(|i| each(&|s| s.masses[i])),
+            inertias: from_fn(|i| each(&|s| s.inertias[i])),
+            contacts: from_fn(|i| from_fn(|j| each(&|s| s.contacts[i][j]))),
+            twists: from_fn(|i| from_fn(|j| each(&|s| s.twists[i][j]))),
+        }
+    }
 }
 
 /// The same states for the same number.
