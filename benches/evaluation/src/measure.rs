@@ -87,7 +87,7 @@ pub fn all(clock: &mut impl Clock) -> Result<(), Problem> {
     clock.each("f64, full impact", 1, &few, |s| consume(full_impact(&model, s)));
     steps(clock, "f64, step", &ByModel(&model));
     steps(clock, "f64, called step", &ByCalls(&model));
-    library_steps(clock, "library, step", &model, &mut { LAW }, [0.0; LENGTH], [0.0; 6]);
+    library_steps(clock, "library, step", &model, LAW, [0.0; LENGTH], [0.0; 6]);
     let (any, mut law): (&AnyModel<f64>, _) = (black_box(&model), LAW);
     let law: &mut dyn Control<f64> = black_box(&mut law);
     let [x, torques] = black_box([LENGTH, 6]).map(|length| vec![0.0; length]);
@@ -154,7 +154,7 @@ fn library_steps<M: Model<f64> + ?Sized>(
     clock: &mut impl Clock,
     name: &str,
     model: &M,
-    law: &mut (impl Control<f64, M> + ?Sized),
+    mut law: impl Control<f64, M>,
     mut x: impl AsMut<[f64]>,
     mut torques: impl AsMut<[f64]>,
 ) {
@@ -168,7 +168,7 @@ fn library_steps<M: Model<f64> + ?Sized>(
             x[3..9].copy_from_slice(&ANGLES);
         }
         count += 1;
-        integrator.robot_step(model, law, 0.0, STEP, x, torques.as_mut()).expect("a regular state");
+        integrator.robot_step(model, &mut law, 0.0, STEP, x, torques.as_mut()).expect("a regular state");
     });
     black_box(x.as_mut());
 }
