@@ -10,7 +10,7 @@ use crate::runge_kutta::{self, GAINS, Motion, Vector, parts, torques};
 use crate::states::{State, states};
 use planar_build::prove::generic::Generic;
 use planar_capture::control::{Control, ProportionalDerivative};
-use planar_capture::dynamics::{AnyModel, ForwardDynamics as _, Impact as _, Model, ReducedDynamics as _};
+use planar_capture::dynamics::{AnyModel, ForwardDynamics as _, Impact as _, ReducedDynamics as _};
 use planar_capture::error::Error;
 use planar_capture::generated::dual_arm_3r::{
     ForwardDynamics, FullImpact, Model as Robot, ReducedDynamics, ReducedImpact,
@@ -87,11 +87,16 @@ pub fn all(clock: &mut impl Clock) -> Result<(), Problem> {
     clock.each("f64, full impact", 1, &few, |s| consume(full_impact(&model, s)));
     steps(clock, "f64, step", &ByModel(&model));
     steps(clock, "f64, called step", &ByCalls(&model));
-    library_steps(clock, "library, step", &model, LAW, [0.0; LENGTH], [0.0; 6]);
+    let (mut law, mut torques) = (LAW, [0.0; 6]);
+    library_steps(clock, "library, step", [0.0; LENGTH], |integrator, x| {
+        integrator.robot_step(&model, &mut law, 0.0, STEP, x, &mut torques)
+    });
     let (any, mut law): (&AnyModel<f64>, _) = (black_box(&model), LAW);
     let law: &mut dyn Control<f64> = black_box(&mut law);
-    let [x, torques] = black_box([LENGTH, 6]).map(|length| vec![0.0; length]);
-    library_steps(clock, "library, step of any robot", any, law, x, torques);
+    let [x, mut torques] = black_box([LENGTH, 6]).map(|length| vec![0.0; length]);
+    library_steps(clock, "library, step of any robot", x, |integrator, x| {
+        integrator.robot_step(any, law, 0.0, STEP, x, &mut torques)
+    });
     simulated_steps(clock, &model);
     audited_states(clock, &model, &few)?;
 
@@ -149,14 +154,12 @@ const LAW: ProportionalDerivative<'static, f64, ConstantSetpoint<'static, f64>> 
     derivative_gain: &[GAINS[1]; 6],
 };
 
-/// As [`steps`], by integrator, law and equation of the library, with vectors of the caller's: of known lengths where they are arrays.
-fn library_steps<M: Model<f64> + ?Sized>(
+/// As [`steps`], by integrator, law and equation of the library, with a vector of the caller's: of known length where it is an array.
+fn library_steps(
     clock: &mut impl Clock,
     name: &str,
-    model: &M,
-    mut law: impl Control<f64, M>,
     mut x: impl AsMut<[f64]>,
-    mut torques: impl AsMut<[f64]>,
+    mut step: impl FnMut(&mut RungeKutta4<'_, f64>, &mut [f64]) -> Result<(), Error>,
 ) {
     let mut workspace = [0.0; 3 * LENGTH];
     let mut integrator = RungeKutta4::new(&mut workspace).expect("three vectors");
@@ -168,7 +171,7 @@ fn library_steps<M: Model<f64> + ?Sized>(
             x[3..9].copy_from_slice(&ANGLES);
         }
         count += 1;
-        integrator.robot_step(model, &mut law, 0.0, STEP, x, torques.as_mut()).expect("a regular state");
+        step(&mut integrator, x).expect("a regular state");
     });
     black_box(x.as_mut());
 }

@@ -113,22 +113,25 @@ pub trait ForwardDynamics<T: Real> {
         joint_accelerations: &mut [T],
     ) -> Result<[T; 3], Error>;
 
-    /// As [`forward_dynamics`](Self::forward_dynamics), and the smallest pivot: whether it is that of a singular system, and all
-    /// numbers are finite, is left to the caller, who asks once after several evaluations.
-    ///
-    /// # Errors
-    /// [`Error::Length`], and without a definition of a model's own those of [`forward_dynamics`](Self::forward_dynamics).
+    /// A classical Runge–Kutta step of an integrated vector, from `time` on, where the compiler knows its length: that of
+    /// [`RungeKutta4::robot_step`](crate::integrate::RungeKutta4::robot_step), in one call also where the type of the model is not known.
+    /// `None`, with `x` unchanged, where the step is not regular and finite or has no torques, and for models without a definition of
+    /// their own.
     #[doc(hidden)]
-    #[inline]
-    fn accelerations_and_pivot(
+    fn step_at_once(
         &self,
-        state: &State<'_, T>,
-        forces: &Forces<'_, T>,
-        joint_accelerations: &mut [T],
-    ) -> Result<([T; 3], T), Error> {
-        Ok((self.forward_dynamics(state, forces, joint_accelerations)?, T::ONE))
+        _torques_at: &mut TorquesAt<'_, T>,
+        _time_and_step: [T; 2],
+        _x: &mut [T],
+        _torques: &mut [T],
+    ) -> Option<()> {
+        None
     }
 }
+
+/// Fills the torques at a time and an integrated vector; `None` where a law has none, or a base torque beside them.
+#[doc(hidden)]
+pub type TorquesAt<'a, T> = dyn FnMut(T, &[T], &mut [T]) -> Option<()> + 'a;
 
 /// Momentum and kinetic energy at one state.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -14,13 +14,14 @@ macro_rules! implement_dynamics {
         mod traits {
             use super::{ARMS, JOINTS, MANIFEST, Model, PARAMETERS, Parameters};
             use $crate::dynamics::{
-                ForwardDynamics, Impact, Merge, Momentum, MomentumAndEnergy, ReducedDynamics, Robot,
+                ForwardDynamics, Impact, Merge, Momentum, MomentumAndEnergy, ReducedDynamics, Robot, TorquesAt,
             };
             use $crate::error::Error;
+            use $crate::integrate::step_at_once::step_at_once;
             use $crate::manifest::ParameterKind;
             use $crate::objection;
             use $crate::scalar::Real;
-            use $crate::state::{Forces, State};
+            use $crate::state::{Forces, State, vector_length};
             use $crate::target::{LinkInertia, Target};
             use $crate::validate::{
                 all_finite, are_regular_and_finite, array, array_mut, finite, finite_configuration, finite_joint_arrays, finite_target,
@@ -117,22 +118,48 @@ macro_rules! implement_dynamics {
                 }
 
                 #[inline(always)]
-                fn accelerations_and_pivot(
+                fn step_at_once(
                     &self,
-                    state: &State<'_, T>,
-                    forces: &Forces<'_, T>,
-                    joint_accelerations: &mut [T],
-                ) -> Result<([T; 3], T), Error> {
-                    if forces.base_wrench.is_some() || forces.end_effector_wrenches.is_some() {
-                        return Ok((ForwardDynamics::forward_dynamics(self, state, forces, joint_accelerations)?, T::ONE));
+                    torques_at: &mut TorquesAt<'_, T>,
+                    time_and_step: [T; 2],
+                    x: &mut [T],
+                    torques: &mut [T],
+                ) -> Option<()> {
+                    const LENGTH: usize = vector_length(JOINTS);
+                    // a large robot's vectors do not belong on the stack, and are no faster there where registers are few
+                    if LENGTH > 32 || cfg!(target_arch = "arm") {
+                        return None;
                     }
-                    let [angles, rates] = joint_arrays(state)?;
-                    let torques = *array("joint_torques", forces.joint_torques)?;
-                    let (pose, twist) = (&state.base_pose, &state.base_twist);
-                    let result = Model::forward_dynamics_with_pivot::<false>(self, pose, angles, twist, rates, &torques);
-                    *array_mut("joint_accelerations", joint_accelerations)? = result.joint_accelerations;
-                    Ok((result.base_acceleration, result.smallest_pivot))
+                    step_at_once::<_, JOINTS, LENGTH>(
+                        |[(pose, angles), (twist, rates)], torques, base, joints| {
+                            accelerate(self, pose, angles, twist, rates, torques, base, joints)
+                        },
+                        torques_at,
+                        time_and_step,
+                        x,
+                        torques,
+                    )
                 }
+            }
+
+            // a call: four evaluations in the text of a step would not fit where the processor keeps what it has decoded
+            #[inline(never)]
+            #[allow(clippy::too_many_arguments, reason = "each in a register")]
+            fn accelerate<T: Real>(
+                model: &Model<T>,
+                base_pose: &[T; 3],
+                joint_angles: &[T; JOINTS],
+                base_twist: &[T; 3],
+                joint_rates: &[T; JOINTS],
+                joint_torques: &[T; JOINTS],
+                base_acceleration: &mut [T; 3],
+                joint_accelerations: &mut [T; JOINTS],
+            ) -> T {
+                let result =
+                    model.forward_dynamics_with_pivot::<false>(base_pose, joint_angles, base_twist, joint_rates, joint_torques);
+                *base_acceleration = result.base_acceleration;
+                *joint_accelerations = result.joint_accelerations;
+                result.smallest_pivot
             }
 
             $crate::implement_dynamics!(@accelerations under_torques forward_dynamics_with_pivot());

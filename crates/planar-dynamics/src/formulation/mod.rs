@@ -61,17 +61,16 @@ pub fn derivative<T: Real, M: Model<T> + ?Sized>(
 ) -> Result<(), Error> {
     length("state vector", x.len(), rate.len())?;
     let StateVector { positions: velocities, rates, work } = split_mut(rate)?;
-    accelerations::<_, _, true>(model, control, time, x, rates, work, torques)?;
+    accelerations(model, control, time, x, rates, work, torques)?;
     copy(split(x)?.rates, velocities);
     Ok(())
 }
 
-/// The part of [`derivative`] that the equations of motion give: accelerations, and power and base torque of the actuators; and
-/// the smallest pivot, unless these are `CHECKED`.
+/// The part of [`derivative`] that the equations of motion give: accelerations, and power and base torque of the actuators.
 #[cfg_attr(target_arch = "arm", inline)]
 #[cfg_attr(not(target_arch = "arm"), inline(always))]
 #[allow(clippy::inline_always, reason = "a call would pass all numbers through memory")]
-pub(crate) fn accelerations<T: Real, M: Model<T> + ?Sized, const CHECKED: bool>(
+pub(crate) fn accelerations<T: Real, M: Model<T> + ?Sized>(
     model: &M,
     control: &mut (impl Control<T, M> + ?Sized),
     time: T,
@@ -79,7 +78,7 @@ pub(crate) fn accelerations<T: Real, M: Model<T> + ?Sized, const CHECKED: bool>(
     rates: &mut [T],
     work: &mut [T; 3],
     torques: &mut [T],
-) -> Result<T, Error> {
+) -> Result<(), Error> {
     // by every stage of a loop
     let model = read_again(model);
     let joints = model.joints();
@@ -90,14 +89,9 @@ pub(crate) fn accelerations<T: Real, M: Model<T> + ?Sized, const CHECKED: bool>(
     let base_torque = control.base_torque().map(|base| base.torque);
     let base_wrench = base_torque.map(|torque| [torque, T::ZERO, T::ZERO]);
     let forces = Forces { base_wrench, ..Forces::torques(torques) };
-    let (base, pivot) = if CHECKED {
-        (model.forward_dynamics(&state, &forces, accelerations.joints)?, T::ONE)
-    } else {
-        model.accelerations_and_pivot(&state, &forces, accelerations.joints)?
-    };
-    *accelerations.base = base;
+    *accelerations.base = model.forward_dynamics(&state, &forces, accelerations.joints)?;
     let [omega, ..] = state.base_twist;
     let of_base = base_torque.map_or([T::ZERO; 2], |torque| [torque * omega, torque]);
     *work = [dot(torques, state.joint_rates), of_base[0], of_base[1]];
-    Ok(pivot)
+    Ok(())
 }

@@ -30,6 +30,8 @@
 mod gauss_legendre;
 mod runge_kutta4;
 mod semi_implicit_euler;
+#[doc(hidden)]
+pub mod step_at_once;
 
 pub use gauss_legendre::GaussLegendre;
 pub use runge_kutta4::RungeKutta4;

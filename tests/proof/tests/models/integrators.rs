@@ -142,7 +142,8 @@ impl<M: dynamics::Model<f64> + ?Sized> Control<f64, M> for Swaying {
 #[test]
 fn a_step_of_a_robot_has_the_bits_of_a_step() {
     let model = Model::<f64>::default();
-    for (bodies, base) in [(0, None), (1, Some(BaseTorque { torque: 2.5, saturated: false }))] {
+    let torque = Some(BaseTorque { torque: 2.5, saturated: false });
+    for (bodies, base) in [(0, None), (0, torque), (1, None), (1, torque)] {
         let length = vector_length(JOINTS) + 6 * bodies;
         let mut x: Vec<f64> = (0_u32..).map(|k| (f64::from(k) * 0.7).sin()).take(length).collect();
         (x[0], x[1], x[length / 2]) = (-0.0, 0.0, -0.0);
