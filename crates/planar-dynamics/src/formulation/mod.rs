@@ -61,7 +61,7 @@ pub fn derivative<T: Real, M: Model<T> + ?Sized>(
 ) -> Result<(), Error> {
     length("state vector", x.len(), rate.len())?;
     let StateVector { positions: velocities, rates, work } = split_mut(rate)?;
-    accelerations(model, control, time, x, rates, work, torques)?;
+    *work = accelerations(model, control, time, x, rates, torques)?;
     copy(split(x)?.rates, velocities);
     Ok(())
 }
@@ -76,9 +76,8 @@ pub(crate) fn accelerations<T: Real, M: Model<T> + ?Sized>(
     time: T,
     x: &[T],
     rates: &mut [T],
-    work: &mut [T; 3],
     torques: &mut [T],
-) -> Result<(), Error> {
+) -> Result<[T; 3], Error> {
     // by every stage of a loop
     let model = read_again(model);
     let joints = model.joints();
@@ -92,6 +91,5 @@ pub(crate) fn accelerations<T: Real, M: Model<T> + ?Sized>(
     *accelerations.base = model.forward_dynamics(&state, &forces, accelerations.joints)?;
     let [omega, ..] = state.base_twist;
     let of_base = base_torque.map_or([T::ZERO; 2], |torque| [torque * omega, torque]);
-    *work = [dot(torques, state.joint_rates), of_base[0], of_base[1]];
-    Ok(())
+    Ok([dot(torques, state.joint_rates), of_base[0], of_base[1]])
 }

@@ -137,12 +137,12 @@ fn robot_stage<T: Real, M: Model<T> + ?Sized>(
     [slope, sum, stage]: [&mut [T]; 3],
     torques: &mut [T],
 ) -> Result<(), Error> {
-    let StateVector { rates: slopes, work: work_slopes, .. } = split_mut(slope)?;
-    accelerations(model, control, time, stage, slopes, work_slopes, torques)?;
+    let slopes = split_mut(slope)?.rates;
+    let work_slopes = accelerations(model, control, time, stage, slopes, torques)?;
     let (sum, x, stage) = (split_mut(sum)?, split(x)?, split_mut(stage)?);
     advance(sum.positions, stage.positions, x.positions, stage.rates, weight, next);
     advance(sum.rates, stage.rates, x.rates, slopes, weight, next);
-    advance(sum.work, stage.work, x.work, work_slopes, weight, next);
+    advance(sum.work, stage.work, x.work, &work_slopes, weight, next);
     Ok(())
 }
 
