@@ -7,7 +7,7 @@ use crate::formulation::accelerations;
 use crate::linear::{add_scaled, copy};
 use crate::read_again::{from_memory, read_again};
 use crate::scalar::Real;
-use crate::state::{State, StateVector, split, split_mut};
+use crate::state::{State, split, split_mut};
 use crate::validate::length;
 
 /// ẋ = f(t, x) by fourth-order Runge–Kutta steps; the global error is O(step⁴).

@@ -10,6 +10,10 @@ use crate::validate::{all_finite, is_regular};
 /// Positions or rates of a robot: of the base and the joints.
 pub type Half<'a, T, const JOINTS: usize> = (&'a [T; 3], &'a [T; JOINTS]);
 
+/// A stage, the weighted sums of slopes, the sum of places, and accelerations of base and joints.
+type Numbers<'a, T, const JOINTS: usize, const LENGTH: usize> =
+    (&'a mut [T; LENGTH], &'a mut [T; LENGTH], &'a mut [T; 3], &'a mut ([T; 3], [T; JOINTS]));
+
 /// The step of an integrated vector of so many numbers under the torques at each of its stages; `accelerate` takes positions, rates
 /// and torques, fills the accelerations of base and joints, and returns the smallest pivot.
 ///
@@ -29,13 +33,15 @@ pub fn step_at_once<T: Real, const JOINTS: usize, const LENGTH: usize>(
     let (mut sum, mut stage) = ([T::ZERO; LENGTH], *x);
     // slopes depend on all numbers but the place of the base: the places of all stages are finite where their sum is
     let mut places = [T::ZERO; 3];
+    let mut accelerations = ([T::ZERO; 3], [T::ZERO; JOINTS]);
+    let mut all = (&mut stage, &mut sum, &mut places, &mut accelerations);
     // four times in the text: a loop would look up the weights
     let [first, second, third, fourth] = stages(step).map(|(at, weight, next)| (time + at, weight, next));
     let pivots = [
-        stage_at_once(&accelerate, torques_at, first, x, (&mut stage, &mut sum, &mut places), torques)?,
-        stage_at_once(&accelerate, torques_at, second, x, (&mut stage, &mut sum, &mut places), torques)?,
-        stage_at_once(&accelerate, torques_at, third, x, (&mut stage, &mut sum, &mut places), torques)?,
-        stage_at_once(&accelerate, torques_at, fourth, x, (&mut stage, &mut sum, &mut places), torques)?,
+        stage_at_once(&accelerate, torques_at, first, x, &mut all, torques)?,
+        stage_at_once(&accelerate, torques_at, second, x, &mut all, torques)?,
+        stage_at_once(&accelerate, torques_at, third, x, &mut all, torques)?,
+        stage_at_once(&accelerate, torques_at, fourth, x, &mut all, torques)?,
     ];
     if !(pivots.into_iter().fold(true, |all, pivot| all & is_regular(pivot)) && all_finite([&sum, &places])) {
         return None;
@@ -52,24 +58,23 @@ fn stage_at_once<T: Real, const JOINTS: usize, const LENGTH: usize>(
     torques_at: &mut TorquesAt<'_, T>,
     (time, weight, next): (T, T, T),
     x: &[T; LENGTH],
-    (stage, sum, places): (&mut [T; LENGTH], &mut [T; LENGTH], &mut [T; 3]),
+    (stage, sum, places, (base, joints)): &mut Numbers<'_, T, JOINTS, LENGTH>,
     torques: &mut [T; JOINTS],
 ) -> Option<T> {
-    add_scaled(places, T::ONE, stage);
-    torques_at(time, stage, torques)?;
-    let (mut base, mut joints) = ([T::ZERO; 3], [T::ZERO; JOINTS]);
-    let now = split(stage).ok()?;
+    add_scaled(*places, T::ONE, *stage);
+    torques_at(time, *stage, torques)?;
+    let now = split(*stage).ok()?;
     let (positions, rates) = (parts(now.positions)?, parts(now.rates)?);
-    let pivot = accelerate([positions, rates], torques, &mut base, &mut joints);
+    let pivot = accelerate([positions, rates], torques, base, joints);
     let power = dot(torques, rates.1);
-    let (sum, x, stage) = (split_mut(sum).ok()?, split(x).ok()?, split_mut(stage).ok()?);
+    let (sum, x, stage) = (split_mut(*sum).ok()?, split(x).ok()?, split_mut(*stage).ok()?);
     advance(sum.positions, stage.positions, x.positions, stage.rates, weight, next);
     // by the loads that match the stores of the accelerations
     let (base_sum, joints_sum) = sum.rates.split_at_mut_checked(3)?;
     let (base_stage, joints_stage) = stage.rates.split_at_mut_checked(3)?;
     let (base_x, joints_x) = x.rates.split_at_checked(3)?;
-    advance(base_sum, base_stage, base_x, &base, weight, next);
-    advance(joints_sum, joints_stage, joints_x, &joints, weight, next);
+    advance(base_sum, base_stage, base_x, base, weight, next);
+    advance(joints_sum, joints_stage, joints_x, joints, weight, next);
     // that of the next stage is not asked for
     let [joint_work, ..] = sum.work;
     *joint_work = T::mul_add(power, weight, *joint_work);
