@@ -143,7 +143,7 @@ pub fn file_per_case(
     folder: &StagedFolder,
     study: &Study,
     extension: &str,
-    write: impl Fn(&CaseResult, &mut BufWriter<&File>) -> io::Result<()>,
+    mut write: impl FnMut(&CaseResult, &mut BufWriter<&File>) -> io::Result<()>,
 ) -> Result<(), CommandError> {
     let mut cases = study.cases.iter();
     Ok(cases.try_for_each(|case| folder.write(&format!("{}.{extension}", case.name), |to| write(case, to)))?)

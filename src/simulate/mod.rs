@@ -295,8 +295,10 @@ pub fn simulate(
         recorder.record(stepper.control(), 0.0, &x, true).map_err(at(0.0))?;
         return Ok(recorder.end(0.0, Some((0, 0.0)), stepper.path_errors(0.0)));
     }
+    let mut next = time_of(0);
     for i in 0..steps {
-        let span @ [time, end] = [time_of(i), time_of(i + 1)];
+        let span @ [time, end] = [next, time_of(i + 1)];
+        next = end;
         stepper.begin_step(time, &x).map_err(at(time))?;
         recorder.audit(time, stepper.moving(&x)).map_err(at(time))?;
         recorder.record(stepper.control(), time, &x, i % stride == 0).map_err(at(time))?;

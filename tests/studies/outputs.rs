@@ -1,7 +1,7 @@
-//! Parquet and MCAP: the numbers of the CSV, errors on a full disk, and the message of a build without them.
+//! Rows of the CSV. Parquet and MCAP: the numbers of the CSV, errors on a full disk, and the message of a build without them.
 #![allow(clippy::float_cmp, reason = "what is written is what is computed, bit by bit")]
 
-use crate::command;
+use crate::{command, run, scenario};
 use planar_proof::file;
 use tempfile::TempDir;
 
@@ -34,6 +34,26 @@ fn a_build_without_them_says_how_to_get_one_with_all_that_is_asked_for() {
         assert!(message.starts_with(&format!("error: this build {lack};")), "{message}");
         assert!(message.contains(&format!("cargo run --release --features {features} -- …")), "{message}");
         assert!(message.contains(&format!("cargo install --path . --features {features}")), "{message}");
+    }
+}
+
+/// The cases of a study in any order by one writer, of a common approach and of one of its own, as each by itself.
+#[test]
+fn rows_of_a_common_approach_are_those_of_each_case() {
+    use planar_capture::output::time_series::{CsvWriter, write_csv};
+
+    let mut scenario = scenario("raina_shah_2017");
+    (scenario.approach.step, scenario.post_impact.as_mut().expect("a phase").duration) = (0.05, 1.0);
+    let mut study = run(&scenario);
+    study.cases[1].approach = Some(study.approach.clone());
+    study.cases[1].approach.as_mut().expect("its own").samples[3].state.base_pose[1] = 7.0;
+    let mut writer = CsvWriter::new(&scenario, &study);
+    for index in [1, 0, 2, 1, 0] {
+        let (mut found, mut expected) = (Vec::new(), Vec::new());
+        writer.write(&study.cases[index], &mut found).expect("written");
+        write_csv(&scenario, &study, &study.cases[index], &mut expected).expect("written");
+        assert_eq!(found, expected, "{index}");
+        assert!(String::from_utf8(found).expect("text").lines().count() > 400);
     }
 }
 

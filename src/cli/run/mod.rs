@@ -177,8 +177,8 @@ fn run_by(arguments: &Arguments, program: Program<'_>, mut chosen: Option<Choice
     }
     let mut product = Product::new(arguments.format, tasks.len());
     let mut is_written = false;
-    for task in &tasks {
-        if let Some((printed, objections)) = codes.take(task.run(arguments)) {
+    for (task, left) in tasks.iter().zip((0..tasks.len()).rev()) {
+        if let Some((printed, objections)) = codes.take(task.run(arguments, left == 0)) {
             is_written = true;
             codes.take(product.add(&printed));
             task.note_objections(&objections);

@@ -17,7 +17,7 @@ use crate::output::run_folder::{REPORT, SUMMARY, files_of, summary_in};
 use crate::output::run_manifest::RunManifest;
 use crate::output::study_part::StudyPart;
 use crate::output::summary::summary_of_parts;
-use crate::output::time_series::write_csv;
+use crate::output::time_series::CsvWriter;
 use crate::scenario::{Scenario, ScenarioSource, Source, Variant};
 use serde_json::Value;
 use std::borrow::Cow;
@@ -51,8 +51,9 @@ pub struct Objections {
 }
 
 impl Task<'_> {
-    /// Computes the study and writes its files: what is printed, and what the audit objects to.
-    pub fn run(&self, arguments: &Arguments) -> Result<(Printed, Objections), CommandError> {
+    /// Computes the study and writes its files: what is printed, and what the audit objects to. What the last task computed is not
+    /// freed part by part, which would take a twentieth of a short run: the process ends.
+    pub fn run(&self, arguments: &Arguments, is_last: bool) -> Result<(Printed, Objections), CommandError> {
         let Self { path, scenario, source, folder, choice, own, named, .. } = self;
         if let Some((sample, step)) = arguments.sample.and_then(|sample| Some((sample, longer_step(scenario, sample)?)))
         {
@@ -101,6 +102,9 @@ impl Task<'_> {
             failures: parts.iter().flat_map(StudyPart::audit_failures).collect(),
             advice: parts.iter().flat_map(StudyPart::step_advice).collect(),
         };
+        if is_last {
+            std::mem::forget(parts);
+        }
         Ok((Printed { table, summary }, objections))
     }
 
@@ -151,7 +155,8 @@ impl Task<'_> {
         let staged = folder.stage()?;
         for part in parts {
             let StudyPart { scenario, study, .. } = part;
-            file_per_case(&staged, study, "csv", |case, to| write_csv(scenario, study, case, to))?;
+            let mut csv = CsvWriter::new(scenario, study);
+            file_per_case(&staged, study, "csv", |case, to| csv.write(case, to))?;
             for output in arguments.optional_outputs.requested() {
                 output.write(&staged, part, &arguments.optional_outputs)?;
             }

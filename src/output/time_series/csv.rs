@@ -1,6 +1,6 @@
 //! The time series of a case as CSV.
 
-use super::{Column, Columns, all_rows};
+use super::{APPROACH, Column, Columns, all_rows};
 use crate::capture::{CaseResult, Study};
 use crate::scenario::Scenario;
 use std::io::{self, Write};
@@ -10,57 +10,160 @@ use std::io::{self, Write};
 /// # Errors
 /// Those of the writer.
 pub fn write_csv(scenario: &Scenario, study: &Study, case: &CaseResult, to: impl Write) -> io::Result<()> {
-    let columns = Columns::of(scenario, case);
-    let mut csv = csv::Writer::from_writer(to);
-    let names = ["time [s]".to_owned(), "phase".to_owned()];
-    csv.write_record(names.into_iter().chain(columns.list().iter().map(Column::heading)))?;
-    let mut to = csv.into_inner().map_err(csv::IntoInnerError::into_error)?;
-    let (mut values, mut line) = (Vec::new(), Vec::new());
-    for row in all_rows(study, case) {
-        let row = row?;
-        columns.values(&row, &mut values);
-        line.clear();
-        push_all(&mut line, &[row.time]);
-        line.extend_from_slice(row.phase.as_bytes());
-        line.push(b',');
-        push_all(&mut line, &values);
-        // the comma after the last number
-        line.pop();
-        line.push(b'\n');
-        to.write_all(&line)?;
+    CsvWriter::new(scenario, study).write(case, to)
+}
+
+/// The time series of the cases of a study. Where these have the approach in common, the robot's numbers are formatted once.
+#[derive(Debug)]
+pub struct CsvWriter<'a> {
+    scenario: &'a Scenario,
+    study: &'a Study,
+    /// What the rows of the common approach begin with, up to the last of the robot's state and tips.
+    beginnings: Texts,
+}
+
+impl<'a> CsvWriter<'a> {
+    /// Of this study.
+    #[must_use]
+    pub fn new(scenario: &'a Scenario, study: &'a Study) -> Self {
+        Self { scenario, study, beginnings: Texts::default() }
     }
-    to.flush()
+
+    /// As [`write_csv`] for one of its cases.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write(&mut self, case: &CaseResult, to: impl Write) -> io::Result<()> {
+        let columns = Columns::of(self.scenario, case);
+        let of_robot = columns.list().iter().take_while(|column| matches!(column.group, "state" | "tips")).count();
+        let mut csv = csv::Writer::from_writer(to);
+        let names = ["time [s]".to_owned(), "phase".to_owned()];
+        csv.write_record(names.into_iter().chain(columns.list().iter().map(Column::heading)))?;
+        let mut to = csv.into_inner().map_err(csv::IntoInnerError::into_error)?;
+        let (mut values, mut line) = (Vec::new(), Vec::new());
+        for (index, row) in all_rows(self.study, case).enumerate() {
+            let row = row?;
+            columns.values(&row, &mut values);
+            let (robot, others) = values.split_at(of_robot);
+            line.clear();
+            let is_common = case.approach.is_none() && row.phase == APPROACH;
+            match self.beginnings.get(index).filter(|_| is_common) {
+                Some(beginning) => line.extend_from_slice(beginning),
+                None => {
+                    push_all(&mut line, &[row.time]);
+                    line.extend_from_slice(row.phase.as_bytes());
+                    line.push(b',');
+                    push_all(&mut line, robot);
+                    if is_common {
+                        self.beginnings.push(&line);
+                    }
+                }
+            }
+            push_all(&mut line, others);
+            // the comma after the last number
+            line.pop();
+            line.push(b'\n');
+            to.write_all(&line)?;
+        }
+        to.flush()
+    }
+}
+
+/// Texts, one after the other.
+#[derive(Debug, Default)]
+struct Texts {
+    bytes: Vec<u8>,
+    ends: Vec<usize>,
+}
+
+impl Texts {
+    /// Memory of all, in bytes: some ten thousand rows.
+    const MOST: usize = 1 << 24;
+
+    /// Keeps one more, as long as there is memory.
+    fn push(&mut self, text: &[u8]) {
+        if self.bytes.len() < Self::MOST {
+            self.bytes.extend_from_slice(text);
+            self.ends.push(self.bytes.len());
+        }
+    }
+
+    fn get(&self, index: usize) -> Option<&[u8]> {
+        let end = *self.ends.get(index)?;
+        let start = index.checked_sub(1).map_or(0, |before| self.ends[before]);
+        Some(&self.bytes[start..end])
+    }
 }
 
 /// Numbers that are formatted before the first of their texts is copied. The formatter writes a text by parts, and what reads it as a
 /// whole waits until these are in the cache, which takes two thirds of the formatter's time unless there is other work until then.
 const AT_ONCE: usize = 16;
 
+/// The longest text of a number, and the comma after it.
+const ROOM: usize = 25;
+
 /// Appends the shortest texts that read back exactly, each with a comma after it. No number needs quotation marks.
 fn push_all(line: &mut Vec<u8>, numbers: &[f64]) {
     let mut buffers: [_; AT_ONCE] = std::array::from_fn(|_| zmij::Buffer::new());
+    let mut end = line.len();
+    line.resize(end + ROOM * numbers.len(), 0);
     for numbers in numbers.chunks(AT_ONCE) {
         let mut texts = [""; AT_ONCE];
         for ((text, buffer), number) in texts.iter_mut().zip(&mut buffers).zip(numbers) {
             *text = buffer.format(*number);
         }
         for text in &texts[..numbers.len()] {
-            push(line, text.as_bytes());
-            line.push(b',');
+            let to = line[end..].first_chunk_mut().expect("room for each number");
+            copy(text.as_bytes(), to);
+            to[text.len()] = b',';
+            end += text.len() + 1;
         }
     }
+    line.truncate(end);
 }
 
-/// Appends a text.
-fn push(line: &mut Vec<u8>, text: &[u8]) {
-    // most have 16 to 24 bytes: two copies of constant length, which overlap, are no calls
-    match (text.first_chunk::<16>(), text.last_chunk::<8>()) {
-        (Some(first), Some(last)) => {
-            let end = line.len() + text.len();
-            line.extend_from_slice(first);
-            line.truncate(end - last.len());
-            line.extend_from_slice(last);
+/// Copies a text of two bytes or more by two copies of constant length, which overlap: no calls.
+fn copy(text: &[u8], to: &mut [u8; ROOM]) {
+    let _ = ends::<16>(text, to)
+        .or_else(|| ends::<8>(text, to))
+        .or_else(|| ends::<4>(text, to))
+        .or_else(|| ends::<2>(text, to));
+}
+
+/// Copies the first and the last bytes of a text, if it has so many, and all of it if it has no more than twice as many.
+fn ends<const N: usize>(text: &[u8], to: &mut [u8; ROOM]) -> Option<()> {
+    let (first, last) = (text.first_chunk::<N>()?, text.last_chunk::<N>()?);
+    *to.first_chunk_mut()? = *first;
+    *to[..text.len()].last_chunk_mut()? = *last;
+    Some(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::push_all;
+
+    /// Of three bytes and more, by the formatter.
+    #[test]
+    fn texts_are_those_of_the_formatter() {
+        let numbers = [
+            0.0,
+            -0.5,
+            0.25,
+            12.125,
+            -1234.5678,
+            1.5e-7,
+            0.1 + 0.2,
+            -1.0 / 3.0,
+            1e300,
+            -2.225_073_858_507_201_4e-308,
+            f64::NAN,
+        ];
+        for count in 0..40 {
+            let numbers: Vec<f64> = (0..count).map(|i| numbers[i % numbers.len()]).collect();
+            let mut line = b"1.0,".to_vec();
+            push_all(&mut line, &numbers);
+            let texts = numbers.iter().map(|number| zmij::Buffer::new().format(*number).to_owned() + ",");
+            assert_eq!(String::from_utf8(line).expect("text"), "1.0,".to_owned() + &texts.collect::<String>());
         }
-        _ => line.extend_from_slice(text),
     }
 }

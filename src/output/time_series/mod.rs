@@ -26,7 +26,7 @@ mod csv;
 mod parquet;
 
 pub use columns::{Column, Columns};
-pub use csv::write_csv;
+pub use csv::{CsvWriter, write_csv};
 #[cfg(feature = "parquet")]
 pub use parquet::write_parquet;
 

@@ -1,10 +1,11 @@
 //! An estimate of the error of the integrated path, which no conservation law shows: a second solution beside the first,
 //! with other steps.
 //!
-//! Steps of twice the length give a solution whose error is 2ᵖ times as large, p being the order: the error is the
-//! difference of the two over 2ᵖ − 1 (Richardson). It has what the motion makes of every step's error, and what feedback
-//! leaves of it. To what it has after an even number of steps, a last step without a pair adds the difference of itself
-//! and two of half its length. Where torques are held, the second takes steps of half the length, and samples of its own, so that the law answers to its
+//! Steps of n times the length give a solution whose error is nᵖ times as large, p being the order: the error is the
+//! difference of the two over nᵖ − 1 (Richardson). It has what the motion makes of every step's error, and what feedback
+//! leaves of it. n is 2, and 4 for Runge–Kutta steps of a motion without feedback: that has no time constants shorter than what
+//! its own steps follow, and a quarter of the steps costs half as much. The last steps, fewer than n, add the difference of one of
+//! them and two of half its length each. Where torques are held, the second takes steps of half the length, and samples of its own, so that the law answers to its
 //! errors, too; a base torque is that of the first. Adaptive steps are followed with a larger tolerance, and compared after a
 //! few of them: to end one at each step of the phase would take more of them.
 //!
@@ -13,7 +14,7 @@
 use super::{Integrator, PathErrors, Steps};
 use crate::control::Control;
 use crate::error::Error;
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 use crate::simulate::equation::Equation;
 use crate::state::{State, StateVector, split, split_mut};
 
@@ -23,6 +24,8 @@ const LOOSER: f64 = 100.0;
 const ADAPTIVE_SHARE: f64 = -0.1;
 /// Adaptive steps of the second solution between two comparisons.
 const COMPARED: f64 = 4.0;
+/// Steps of the first solution to one of the second, without feedback and with it.
+const STRIDES: [u32; 2] = [4, 2];
 /// An error that no phase passes with, for a second solution that cannot be continued; rad, m.
 const UNKNOWN: f64 = 1.0;
 
@@ -32,8 +35,11 @@ pub(super) struct Companion {
     x: Vec<f64>,
     /// At the end of its last step, with rates and with momenta.
     last_step: [Vec<f64>; 2],
-    /// A step that the next one is to double, or steps over which adaptive ones have not followed yet, s.
+    /// Steps over which this solution has not followed yet, s.
     pending: Option<[f64; 2]>,
+    /// Number of steps that the next one is to be as long as, and how many of these are pending.
+    stride: u32,
+    count: u32,
     /// The order of the steps; `None` where they follow from a tolerance.
     order: Option<i32>,
     /// The error over the difference of the first solution and this one.
@@ -43,7 +49,7 @@ pub(super) struct Companion {
     error: f64,
     /// The first solution where this one is, or was last.
     first: Vec<f64>,
-    /// The same at the end of what is pending.
+    /// The same at the end of what is pending, of adaptive steps.
     latest: Vec<f64>,
     is_lost: bool,
 }
@@ -57,10 +63,17 @@ impl Companion {
         };
         let steps = integrator.steps(duration, x.len(), equation.control.has_feedback());
         let order = integrator.properties().order;
-        let share = match order.map(|order| 2.0_f64.powi(order)) {
+        // implicit steps are long already, and those of order 1 follow a motion less well
+        let [of_free, of_others] = STRIDES;
+        let is_free = integrator == Integrator::RungeKutta4 && !equation.control.has_feedback();
+        let stride = if is_free { of_free } else { of_others };
+        let share = match order {
             None => ADAPTIVE_SHARE,
-            Some(growth) if equation.control.held_steps().is_some() => growth / (growth - 1.0),
-            Some(growth) => -1.0 / (growth - 1.0),
+            Some(order) if equation.control.held_steps().is_some() => {
+                let growth = 2.0_f64.powi(order);
+                growth / (growth - 1.0)
+            }
+            Some(order) => share_of(stride, order),
         };
         let (last_step, held) = ([Vec::new(), Vec::new()], vec![0.0; equation.system.model.joints()]);
         let (first, latest, mut x) = (x.to_vec(), x.to_vec(), x.to_vec());
@@ -69,7 +82,21 @@ impl Companion {
                 half.iter_mut().zip(errors).for_each(|(x, error)| *x -= error / share);
             }
         }
-        Self { steps, x, last_step, pending: None, order, share, held, error: 0.0, first, latest, is_lost: false }
+        Self {
+            steps,
+            x,
+            last_step,
+            pending: None,
+            stride,
+            count: 0,
+            order,
+            share,
+            held,
+            error: 0.0,
+            first,
+            latest,
+            is_lost: false,
+        }
     }
 
     /// Takes the sample of a law that holds its torques, before the first solution does.
@@ -97,7 +124,7 @@ impl Companion {
             return self.latest.copy_from_slice(x);
         }
         match self.exchanged(equation, |own, equation| own.advance(equation, span)) {
-            Ok(false) => self.latest.copy_from_slice(x),
+            Ok(false) => {}
             Ok(true) => self.compare(x),
             Err(_) => self.lose(),
         }
@@ -111,26 +138,27 @@ impl Companion {
 
     /// Takes the order as one from here on, with the same error so far.
     fn lower_order(&mut self) {
-        let before = std::mem::replace(&mut self.share, -1.0);
+        let before = std::mem::replace(&mut self.share, share_of(self.stride, 1));
         self.order = Some(1);
         self.x.iter_mut().zip(&self.first).for_each(|(x, first)| *x = first - (first - *x) * before / self.share);
     }
 
-    /// The largest error of a position (rad, m), with that of a last step without a pair, and those of positions and rates
-    /// where there are both solutions last.
-    pub(super) fn errors(&mut self, equation: &mut Equation<'_>) -> PathErrors {
+    /// The largest error of a position (rad, m), and those of the robot's positions and rates at the end; with those of the last steps
+    /// that this solution has not followed, as far as they go until the phase ends at `time`.
+    pub(super) fn errors(&mut self, equation: &mut Equation<'_>, time: f64) -> PathErrors {
         if self.order.is_none() && !self.is_lost {
             self.catch_up(equation);
         }
-        let count = 3 + self.held.len();
-        let halves = [&self.first, &self.x].map(|x| split(x).map_or([&[][..], &[]], |x| [x.positions, x.rates]));
-        let at_end = std::array::from_fn(|i| {
-            let pairs = halves[0][i].iter().zip(halves[1][i]).take(count);
-            pairs.map(|(first, second)| self.share * (first - second)).collect()
-        });
-        if let Some(span) = self.pending.take().filter(|_| !self.is_lost) {
-            match self.exchanged(equation, |own, equation| own.error_of_step(equation, span)) {
-                Ok(error) => self.error += error,
+        let mut at_end = self.errors_of_robot(&self.first, self.share);
+        if let Some([start, end]) = self.pending.take().filter(|_| !self.is_lost) {
+            let step = (end - start) / f64::from(self.count);
+            let count = (Scalar::minimum(end, time) - start) / step;
+            match self.exchanged(equation, |own, equation| own.error_of_step(equation, [start, start + step])) {
+                Ok((error, of_robot)) => {
+                    self.error += count * error;
+                    let sums = at_end.iter_mut().flatten().zip(of_robot.into_iter().flatten());
+                    sums.for_each(|(sum, error)| *sum += count * error);
+                }
                 Err(_) => self.lose(),
             }
         }
@@ -186,13 +214,14 @@ impl Companion {
         if equation.control.held_steps().is_some() {
             return self.halves(equation, span).map(|()| true);
         }
-        match self.pending.take() {
-            None => {
-                self.pending = Some(span);
-                Ok(false)
-            }
-            Some([from, _]) => self.steps.advance_to_end(equation, [from, end], &mut self.x).map(|()| true),
+        let from = self.pending.take().map_or(span[0], |[from, _]| from);
+        self.count += 1;
+        if self.count < self.stride {
+            self.pending = Some([from, end]);
+            return Ok(false);
         }
+        self.count = 0;
+        self.steps.advance_to_end(equation, [from, end], &mut self.x).map(|()| true)
     }
 
     /// Two steps of half the length.
@@ -202,14 +231,30 @@ impl Companion {
         self.steps.advance_to_end(equation, [middle, end], &mut self.x)
     }
 
-    /// The error of one step from here.
-    fn error_of_step(&mut self, equation: &mut Equation<'_>, span: [f64; 2]) -> Result<f64, Error> {
+    /// The errors of one step from here: the largest of a position, and those of the robot.
+    fn error_of_step(&mut self, equation: &mut Equation<'_>, span: [f64; 2]) -> Result<(f64, [Vec<f64>; 2]), Error> {
         let growth = 2.0_f64.powi(self.order.unwrap_or_default());
+        let share = growth / (growth - 1.0);
         let mut whole = self.x.clone();
         self.steps.advance_to_end(equation, span, &mut whole)?;
         self.halves(equation, span)?;
-        Ok(growth / (growth - 1.0) * largest_difference(&whole, &self.x))
+        Ok((share * largest_difference(&whole, &self.x), self.errors_of_robot(&whole, share)))
     }
+
+    /// A share of the differences of a vector and that of this solution, in positions and rates of the robot.
+    fn errors_of_robot(&self, x: &[f64], share: f64) -> [Vec<f64>; 2] {
+        let count = 3 + self.held.len();
+        let [first, second] = [x, &self.x].map(|x| split(x).map_or([&[][..], &[]], |x| [x.positions, x.rates]));
+        std::array::from_fn(|i| {
+            let pairs = first[i].iter().zip(second[i]).take(count);
+            pairs.map(|(first, second)| share * (first - second)).collect()
+        })
+    }
+}
+
+/// The error over the difference of the first solution and one with steps of so many times the length, of an order.
+fn share_of(stride: u32, order: i32) -> f64 {
+    -1.0 / (f64::from(stride).powi(order) - 1.0)
 }
 
 /// Whether a torque is at its limit, or a limit within the law acts, in the last state of a law that acts continuously: the

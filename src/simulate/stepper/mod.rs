@@ -263,7 +263,7 @@ impl<'a> Stepper<'a> {
 
     /// The estimated errors of a phase that ends at `time`.
     pub(crate) fn path_errors(&mut self, time: f64) -> PathErrors {
-        let (error, at_end) = self.companion.errors(&mut self.equation);
+        let (error, at_end) = self.companion.errors(&mut self.equation, time);
         (Real::maximum(error, self.frame.rounding(time)), at_end)
     }
 

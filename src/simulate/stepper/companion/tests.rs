@@ -70,9 +70,12 @@ fn run(integrator: Integrator, law: &mut dyn Control<f64>, from: &RobotState, [d
     simulate(&system, law, from, &timing, &mut NoEvents, &mut || ()).expect("a phase")
 }
 
+fn positions(sample: &Sample) -> Vec<f64> {
+    [&sample.state.base_pose[..], &sample.state.joint_angles].concat()
+}
+
 /// The largest difference of the positions at each of some samples and the same of others.
 fn largest<'a>(some: impl Iterator<Item = &'a Sample>, others: impl Iterator<Item = &'a Sample>) -> f64 {
-    let positions = |sample: &Sample| [&sample.state.base_pose[..], &sample.state.joint_angles].concat();
     let differences = some.zip(others).flat_map(|(a, b)| {
         let pairs: Vec<_> = positions(a).into_iter().zip(positions(b)).collect();
         pairs.into_iter().map(|(a, b)| (a - b).abs())
@@ -90,27 +93,56 @@ fn check(name: &str, found: f64, expected: f64) {
     assert_close(name, &[found / expected], &[1.0], tolerance::SAME_STEPS / expected);
 }
 
-/// Steps of double length, and a last one without a pair against two of half its length.
+/// Steps of two or four times the length, and for each of the last ones, which these do not follow, one of them against two of half
+/// its length.
 #[test]
-fn fixed_steps_are_compared_with_double_ones() {
+fn fixed_steps_are_compared_with_longer_ones() {
     for (integrator, growth) in FIXED {
-        for steps in [1.0, 4.0, 5.0] {
+        let (stride, growth_of_stride) =
+            if integrator == Integrator::RungeKutta4 { (4.0, growth * growth) } else { (2.0, growth) };
+        for steps in [1.0, 3.0, 4.0, 5.0, 10.0] {
             let found = run(integrator, &mut ZeroTorque, &initial(), [steps * STEP, STEP]);
-            let pairs = 2.0 * f64::floor(0.5 * steps);
+            let followed = stride * f64::floor(steps / stride);
             let (mut expected, mut state) = (0.0, initial());
-            if pairs > 0.0 {
-                let double = run(integrator, &mut ZeroTorque, &initial(), [pairs * STEP, 2.0 * STEP]);
-                expected = largest(found.samples.iter().step_by(2), double.samples.iter()) / (growth - 1.0);
-                state = double.end().state.clone();
+            if followed > 0.0 {
+                let longer = run(integrator, &mut ZeroTorque, &initial(), [followed * STEP, stride * STEP]);
+                let every = if stride > 2.0 { 4 } else { 2 };
+                let difference = largest(found.samples.iter().step_by(every), longer.samples.iter());
+                expected = difference / (growth_of_stride - 1.0);
+                state = longer.end().state.clone();
             }
-            if pairs < steps {
+            if followed < steps {
                 let [one, two] = [STEP, 0.5 * STEP].map(|step| run(integrator, &mut ZeroTorque, &state, [STEP, step]));
                 let difference = largest([one.end()].into_iter(), [two.end()].into_iter());
-                expected += difference * growth / (growth - 1.0);
+                let share = (steps - followed) * growth / (growth - 1.0);
+                expected += share * difference;
+                if followed == 0.0 {
+                    // with their signs
+                    let pairs = positions(one.end()).into_iter().zip(positions(two.end()));
+                    let errors: Vec<f64> = pairs.map(|(one, two)| share * (one - two)).collect();
+                    assert_close("at the end", &found.end_error[0], &errors, tolerance::SAME_STEPS);
+                }
             }
             check(&format!("{integrator:?}, {steps} steps"), found.path_error, expected);
         }
     }
+}
+
+/// Of a motion without feedback, from fine steps to those with which the path is lost.
+#[test]
+fn the_estimate_without_feedback_is_of_the_size_of_the_error() {
+    let duration = 64.0 * STEP;
+    let exact = run(Integrator::Adaptive { tolerance: 1e-13 }, &mut ZeroTorque, &initial(), [duration, STEP]);
+    let mut seen = [0; 2];
+    for steps in [1024.0, 768.0, 512.0, 384.0, 256.0, 128.0, 64.0, 63.0, 62.0, 61.0, 32.0] {
+        let found = run(Integrator::RungeKutta4, &mut ZeroTorque, &initial(), [duration, duration / steps]);
+        let error = largest([found.end()].into_iter(), [exact.end()].into_iter());
+        let name = format!("{steps} steps: error {error:e}, estimate {:e}", found.path_error);
+        assert!(error > 1e-11 && found.path_error >= 0.3 * error.min(1e-2), "{name}");
+        assert!(found.path_error <= 100.0 * error || error > 1e-2, "{name}");
+        seen[usize::from(error > 1e-4)] += 1;
+    }
+    assert!(seen[0] > 3 && seen[1] > 3, "{seen:?}");
 }
 
 /// Torques that are held: steps of half the length.
@@ -261,9 +293,8 @@ fn errors_of_two_phases_have_their_signs() {
     exact.joint_rates[1] -= error[4];
     let found = from(&start, [&error[..1], &[0.0, 0.0, 0.0, error[3], error[4]]]);
     let exact = from(&exact, [&[]; 2]);
-    let positions = |phase: &Phase| [&phase.end().state.base_pose[..], &phase.end().state.joint_angles].concat();
-    let errors: Vec<f64> =
-        positions(&found).iter().zip(positions(&exact)).map(|(found, exact)| found - exact).collect();
+    let pairs = positions(found.end()).into_iter().zip(positions(exact.end()));
+    let errors: Vec<f64> = pairs.map(|(found, exact)| found - exact).collect();
     let most = errors.iter().fold(0.0, |most: f64, error| most.max(error.abs()));
     assert!(most > 1e-6, "{errors:?}");
     for (estimated, error) in found.end_error[0].iter().zip(&errors) {
