@@ -47,16 +47,15 @@ impl<'a> CsvWriter<'a> {
             let (robot, others) = values.split_at(of_robot);
             line.clear();
             let is_common = case.approach.is_none() && row.phase == APPROACH;
-            match self.beginnings.get(index).filter(|_| is_common) {
-                Some(beginning) => line.extend_from_slice(beginning),
-                None => {
-                    push_all(&mut line, &[row.time]);
-                    line.extend_from_slice(row.phase.as_bytes());
-                    line.push(b',');
-                    push_all(&mut line, robot);
-                    if is_common {
-                        self.beginnings.push(&line);
-                    }
+            if let Some(beginning) = self.beginnings.get(index).filter(|_| is_common) {
+                line.extend_from_slice(beginning);
+            } else {
+                push_all(&mut line, &[row.time]);
+                line.extend_from_slice(row.phase.as_bytes());
+                line.push(b',');
+                push_all(&mut line, robot);
+                if is_common {
+                    self.beginnings.push(&line);
                 }
             }
             push_all(&mut line, others);
