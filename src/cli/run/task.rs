@@ -52,7 +52,7 @@ pub struct Objections {
 
 impl Task<'_> {
     /// Computes the study and writes its files: what is printed, and what the audit objects to. What the last task computed is not
-    /// freed part by part, which would take a twentieth of a short run: the process ends.
+    /// freed part by part, which would take a thirtieth of a short run: the process ends.
     pub fn run(&self, arguments: &Arguments, is_last: bool) -> Result<(Printed, Objections), CommandError> {
         let Self { path, scenario, source, folder, choice, own, named, .. } = self;
         if let Some((sample, step)) = arguments.sample.and_then(|sample| Some((sample, longer_step(scenario, sample)?)))

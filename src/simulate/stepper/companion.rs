@@ -3,11 +3,12 @@
 //!
 //! Steps of n times the length give a solution whose error is nᵖ times as large, p being the order: the error is the
 //! difference of the two over nᵖ − 1 (Richardson). It has what the motion makes of every step's error, and what feedback
-//! leaves of it. n is 2, and 4 for Runge–Kutta steps of a motion without feedback: that has no time constants shorter than what
-//! its own steps follow, and a quarter of the steps costs half as much. The last steps, fewer than n, add the difference of one of
-//! them and two of half its length each. Where torques are held, the second takes steps of half the length, and samples of its own, so that the law answers to its
-//! errors, too; a base torque is that of the first. Adaptive steps are followed with a larger tolerance, and compared after a
-//! few of them: to end one at each step of the phase would take more of them.
+//! leaves of it. n is 2, and 4 for Runge–Kutta steps of a motion without feedback: that has no time constants shorter than
+//! what its own steps follow, and a quarter of the steps costs half as much. Each of the last steps, fewer than n, adds the
+//! difference of one of them and two of half its length. Where torques are held, the second takes steps of half the length,
+//! and samples of its own, so that the law answers to its errors, too; a base torque is that of the first. Adaptive steps are
+//! followed with a larger tolerance, and compared after a few of them: to end one at each step of the phase would take more of
+//! them.
 //!
 //! The second solution starts with the error that the motion before has left, and so has what this motion makes of it.
 
@@ -24,8 +25,10 @@ const LOOSER: f64 = 100.0;
 const ADAPTIVE_SHARE: f64 = -0.1;
 /// Adaptive steps of the second solution between two comparisons.
 const COMPARED: f64 = 4.0;
-/// Steps of the first solution to one of the second, without feedback and with it.
-const STRIDES: [u32; 2] = [4, 2];
+/// Steps of the first solution to one of the second.
+const STRIDE: u32 = 2;
+/// The same of Runge–Kutta steps without feedback.
+const FREE_STRIDE: u32 = 4;
 /// An error that no phase passes with, for a second solution that cannot be continued; rad, m.
 const UNKNOWN: f64 = 1.0;
 
@@ -37,8 +40,9 @@ pub(super) struct Companion {
     last_step: [Vec<f64>; 2],
     /// Steps over which this solution has not followed yet, s.
     pending: Option<[f64; 2]>,
-    /// Number of steps that the next one is to be as long as, and how many of these are pending.
+    /// The number of steps that one of this solution is as long as.
     stride: u32,
+    /// How many of these are pending.
     count: u32,
     /// The order of the steps; `None` where they follow from a tolerance.
     order: Option<i32>,
@@ -63,10 +67,9 @@ impl Companion {
         };
         let steps = integrator.steps(duration, x.len(), equation.control.has_feedback());
         let order = integrator.properties().order;
-        // implicit steps are long already, and those of order 1 follow a motion less well
-        let [of_free, of_others] = STRIDES;
+        // implicit steps are long already, and steps of order 1 follow a motion less well
         let is_free = integrator == Integrator::RungeKutta4 && !equation.control.has_feedback();
-        let stride = if is_free { of_free } else { of_others };
+        let stride = if is_free { FREE_STRIDE } else { STRIDE };
         let share = match order {
             None => ADAPTIVE_SHARE,
             Some(order) if equation.control.held_steps().is_some() => {
