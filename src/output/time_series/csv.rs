@@ -121,12 +121,15 @@ fn push_all(line: &mut Vec<u8>, numbers: &[f64]) {
     line.truncate(end);
 }
 
-/// Copies a text of two bytes or more by two copies of constant length, which overlap: no calls.
+/// Copies a text; most by two copies of constant length, which overlap: no calls.
 fn copy(text: &[u8], to: &mut [u8; ROOM]) {
-    let _ = ends::<16>(text, to)
+    let copied = ends::<16>(text, to)
         .or_else(|| ends::<8>(text, to))
         .or_else(|| ends::<4>(text, to))
         .or_else(|| ends::<2>(text, to));
+    if copied.is_none() {
+        to[..text.len()].copy_from_slice(text);
+    }
 }
 
 /// Copies the first and the last bytes of a text, if it has so many, and all of it if it has no more than twice as many.

@@ -29,6 +29,8 @@ const COMPARED: f64 = 4.0;
 const STRIDE: u32 = 2;
 /// The same of Runge–Kutta steps without feedback.
 const FREE_STRIDE: u32 = 4;
+/// Length of a step where torques are held, or where one is compared with two, over that of the first solution's.
+const HALF: f64 = 0.5;
 /// An error that no phase passes with, for a second solution that cannot be continued; rad, m.
 const UNKNOWN: f64 = 1.0;
 
@@ -72,11 +74,8 @@ impl Companion {
         let stride = if is_free { FREE_STRIDE } else { STRIDE };
         let share = match order {
             None => ADAPTIVE_SHARE,
-            Some(order) if equation.control.held_steps().is_some() => {
-                let growth = 2.0_f64.powi(order);
-                growth / (growth - 1.0)
-            }
-            Some(order) => share_of(stride, order),
+            Some(order) if equation.control.held_steps().is_some() => share_of(HALF, order),
+            Some(order) => share_of(stride.into(), order),
         };
         let (last_step, held) = ([Vec::new(), Vec::new()], vec![0.0; equation.system.model.joints()]);
         let (first, latest, mut x) = (x.to_vec(), x.to_vec(), x.to_vec());
@@ -141,7 +140,7 @@ impl Companion {
 
     /// Takes the order as one from here on, with the same error so far.
     fn lower_order(&mut self) {
-        let before = std::mem::replace(&mut self.share, share_of(self.stride, 1));
+        let before = std::mem::replace(&mut self.share, share_of(self.stride.into(), 1));
         self.order = Some(1);
         self.x.iter_mut().zip(&self.first).for_each(|(x, first)| *x = first - (first - *x) * before / self.share);
     }
@@ -210,20 +209,18 @@ impl Companion {
 
     /// Advances it; returns whether it is as far as the first.
     fn advance(&mut self, equation: &mut Equation<'_>, span @ [_, end]: [f64; 2]) -> Result<bool, Error> {
-        if self.order.is_none() {
-            let from = self.pending.take().map_or(span[0], |[from, _]| from);
-            return self.steps.advance_to_end(equation, [from, end], &mut self.x).map(|()| true);
-        }
-        if equation.control.held_steps().is_some() {
-            return self.halves(equation, span).map(|()| true);
-        }
         let from = self.pending.take().map_or(span[0], |[from, _]| from);
-        self.count += 1;
-        if self.count < self.stride {
-            self.pending = Some([from, end]);
-            return Ok(false);
+        if self.order.is_some() {
+            if equation.control.held_steps().is_some() {
+                return self.halves(equation, span).map(|()| true);
+            }
+            self.count += 1;
+            if self.count < self.stride {
+                self.pending = Some([from, end]);
+                return Ok(false);
+            }
+            self.count = 0;
         }
-        self.count = 0;
         self.steps.advance_to_end(equation, [from, end], &mut self.x).map(|()| true)
     }
 
@@ -236,8 +233,7 @@ impl Companion {
 
     /// The errors of one step from here: the largest of a position, and those of the robot.
     fn error_of_step(&mut self, equation: &mut Equation<'_>, span: [f64; 2]) -> Result<(f64, [Vec<f64>; 2]), Error> {
-        let growth = 2.0_f64.powi(self.order.unwrap_or_default());
-        let share = growth / (growth - 1.0);
+        let share = share_of(HALF, self.order.unwrap_or_default());
         let mut whole = self.x.clone();
         self.steps.advance_to_end(equation, span, &mut whole)?;
         self.halves(equation, span)?;
@@ -255,9 +251,9 @@ impl Companion {
     }
 }
 
-/// The error over the difference of the first solution and one with steps of so many times the length, of an order.
-fn share_of(stride: u32, order: i32) -> f64 {
-    -1.0 / (f64::from(stride).powi(order) - 1.0)
+/// The error over the difference of a solution and one with steps of so many times the length, of an order.
+fn share_of(length: f64, order: i32) -> f64 {
+    -1.0 / (length.powi(order) - 1.0)
 }
 
 /// Whether a torque is at its limit, or a limit within the law acts, in the last state of a law that acts continuously: the
