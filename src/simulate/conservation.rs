@@ -220,9 +220,8 @@ impl<'a> ConservationAudit<'a> {
     ///
     /// # Errors
     /// Those of the model.
-    pub fn momentum(&mut self, state: &State<'_, f64>, beside: &[Body]) -> Result<Momentum<f64>, Error> {
-        let none = Momentum { linear_momentum: [0.0; 2], angular_momentum: 0.0, kinetic_energy: 0.0 };
-        Ok(with_bodies(none, self.bodies.at(self.model, state, beside)?))
+    pub fn momentum(&self, state: &State<'_, f64>, beside: &[Body]) -> Result<Momentum<f64>, Error> {
+        Ok(with_bodies(self.model.momentum(state)?, beside.iter().copied()))
     }
 
     /// Adds the momentum and the energy of a state between those that are checked to the scales of the errors: in a long

@@ -223,9 +223,16 @@ impl Cubic {
 
     /// The coordinate and its rate.
     #[inline]
-    pub(super) fn at(&self, u: f64, length: f64) -> [f64; 2] {
+    fn at(&self, u: f64, length: f64) -> [f64; 2] {
+        let [position, slope] = self.with_slope(u);
+        [position, slope / length]
+    }
+
+    /// The coordinate and its change over the interval by its rate.
+    #[inline]
+    pub(super) fn with_slope(&self, u: f64) -> [f64; 2] {
         let Self { first, second, third, .. } = self;
-        [self.position(u), (first + u * (2.0 * second + u * 3.0 * third)) / length]
+        [self.position(u), first + u * (2.0 * second + u * 3.0 * third)]
     }
 
     #[inline]

@@ -73,10 +73,14 @@ impl<'a> Recorder<'a> {
         x: &[f64],
         sampled: bool,
     ) -> Result<(), Error> {
-        let model = self.system.model;
+        let (model, limits) = (self.system.model, self.system.joint_limits);
+        let is_followed = is_followed(control);
+        if !sampled && !is_followed && limits.is_empty() {
+            return Ok(());
+        }
         let state = State::from_vector(x, model.joints())?;
-        self.limit_violations.record(self.system.joint_limits, time, &state);
-        if sampled || is_followed(control) {
+        self.limit_violations.record(limits, time, &state);
+        if sampled || is_followed {
             self.law_at(control, time, &state)?;
         }
         if !sampled {

@@ -214,7 +214,7 @@ impl Comparison {
         let [positions, rates] = &self.found;
         let found = self.weights.iter().zip(positions.iter().zip(rates)).zip(expected.iter().zip(expected_rates));
         found.fold(true, |are_near, ((weight, (x, v)), (expected, expected_rate))| {
-            are_near & is_near(*weight, [length, share], [*x, *v], [*expected, *expected_rate])
+            are_near & is_near(*weight, share, [*x, length * v], [*expected, length * expected_rate])
         })
     }
 }
@@ -232,24 +232,18 @@ fn passes_through(
     let ends = x.iter().zip(v).zip(y.iter().zip(w)).zip(weights);
     let mut are_near = true;
     for ((((x, v), (y, w)), weight), (expected, expected_rate)) in ends.zip(expected.iter().zip(expected_rates)) {
-        let found = Cubic::new(length, [[*x, *v], [*y, *w]]).at(u, length);
-        are_near &= is_near(*weight, [length, 1.0], found, [*expected, *expected_rate]);
+        let found = Cubic::new(length, [[*x, *v], [*y, *w]]).with_slope(u);
+        are_near &= is_near(*weight, 1.0, found, [*expected, length * expected_rate]);
     }
     are_near
 }
 
-/// Whether a share of the errors of a position and its rate, of so many metres per unit, is small over an interval of a length, s.
+/// Whether a share of the errors of a position, of so many metres per unit, and of its change over an interval by its rate is small.
 #[inline(always)]
 #[allow(clippy::inline_always, reason = "its vectors are those of the caller")]
-fn is_near(
-    weight: f64,
-    [length, share]: [f64; 2],
-    [position, rate]: [f64; 2],
-    [expected, expected_rate]: [f64; 2],
-) -> bool {
+fn is_near(weight: f64, share: f64, [position, change]: [f64; 2], [expected, expected_change]: [f64; 2]) -> bool {
     // the largest position error of a rate error: a quarter of the interval at most
-    let lever = 0.125 * length;
-    let error = (position - expected).abs().max(lever * (rate - expected_rate).abs());
+    let error = (position - expected).abs().max(0.125 * (change - expected_change).abs());
     weight * error * share <= TOLERANCE.max(weight * ROUNDING * expected.abs())
 }
 
