@@ -55,6 +55,10 @@ impl Control<f64> for InertialFrame<'_> {
         self.law.held_steps()
     }
 
+    fn is_constant(&self) -> bool {
+        self.law.is_constant()
+    }
+
     fn sample_beside(
         &mut self,
         time: f64,

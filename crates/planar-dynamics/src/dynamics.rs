@@ -115,12 +115,12 @@ pub trait ForwardDynamics<T: Real> {
 
     /// A classical Runge–Kutta step of an integrated vector, from `time` on, where the compiler knows its length: that of
     /// [`RungeKutta4::robot_step`](crate::integrate::RungeKutta4::robot_step), in one call also where the type of the model is not known.
-    /// `None`, with `x` unchanged, where the step is not regular and finite or has no torques, and for models without a definition of
-    /// their own.
+    /// Without `torques_at`, `torques` are those of all stages. `None`, with `x` unchanged, where the step is not regular and finite or
+    /// has no torques, and for models without a definition of their own.
     #[doc(hidden)]
     fn step_at_once(
         &self,
-        _torques_at: &mut TorquesAt<'_, T>,
+        _torques_at: Option<&mut TorquesAt<'_, T>>,
         _time_and_step: [T; 2],
         _x: &mut [T],
         _torques: &mut [T],

@@ -17,7 +17,7 @@ macro_rules! implement_dynamics {
                 ForwardDynamics, Impact, Merge, Momentum, MomentumAndEnergy, ReducedDynamics, Robot, TorquesAt,
             };
             use $crate::error::Error;
-            use $crate::integrate::step_at_once::step_at_once;
+            use $crate::integrate::step_at_once::{Half, step_at_once, unknown};
             use $crate::manifest::ParameterKind;
             use $crate::objection;
             use $crate::scalar::Real;
@@ -120,7 +120,7 @@ macro_rules! implement_dynamics {
                 #[inline(always)]
                 fn step_at_once(
                     &self,
-                    torques_at: &mut TorquesAt<'_, T>,
+                    torques_at: Option<&mut TorquesAt<'_, T>>,
                     time_and_step: [T; 2],
                     x: &mut [T],
                     torques: &mut [T],
@@ -130,15 +130,21 @@ macro_rules! implement_dynamics {
                     if LENGTH > 32 || cfg!(target_arch = "arm") {
                         return None;
                     }
-                    step_at_once::<_, JOINTS, LENGTH>(
-                        |[(pose, angles), (twist, rates)], torques, base, joints| {
-                            accelerate(self, pose, angles, twist, rates, torques, base, joints)
-                        },
-                        torques_at,
-                        time_and_step,
-                        x,
-                        torques,
-                    )
+                    let accelerate = |[(pose, angles), (twist, rates)]: [Half<'_, T, JOINTS>; 2],
+                                      torques: &[T; JOINTS],
+                                      base: &mut [T; 3],
+                                      joints: &mut [T; JOINTS]| {
+                        accelerate(self, pose, angles, twist, rates, torques, base, joints)
+                    };
+                    match torques_at {
+                        Some(torques_at) => {
+                            step_at_once::<_, JOINTS, LENGTH>(&accelerate, torques_at, time_and_step, x, torques)
+                        }
+                        None => {
+                            let constant = &mut |_, _: &[T], _: &mut [T]| Some(());
+                            step_at_once::<_, JOINTS, LENGTH>(&accelerate, constant, time_and_step, x, torques)
+                        }
+                    }
                 }
             }
 
@@ -155,6 +161,8 @@ macro_rules! implement_dynamics {
                 base_acceleration: &mut [T; 3],
                 joint_accelerations: &mut [T; JOINTS],
             ) -> T {
+                let (joint_angles, joint_rates, joint_torques) =
+                    (unknown(joint_angles), unknown(joint_rates), unknown(joint_torques));
                 let result =
                     model.forward_dynamics_with_pivot::<false>(base_pose, joint_angles, base_twist, joint_rates, joint_torques);
                 *base_acceleration = result.base_acceleration;

@@ -3,9 +3,10 @@
 //!
 //! Steps of n times the length give a solution whose error is nᵖ times as large, p being the order: the error is the
 //! difference of the two over nᵖ − 1 (Richardson). It has what the motion makes of every step's error, and what feedback
-//! leaves of it. n is 2, and 4 for Runge–Kutta steps of a motion without feedback: that has no time constants shorter than
-//! what its own steps follow, and a quarter of the steps costs half as much. Each of the last steps, fewer than n, adds the
-//! difference of one of them and two of half its length. Where torques are held, the second takes steps of half the length,
+//! leaves of it. n is 2, and 4, 8 or 16 for Runge–Kutta steps of a motion without feedback: that has no time constants shorter than
+//! what its own steps follow, and a quarter of the steps costs half as much. More than 4 are for slow motions, which hardly turn in such
+//! a step, and for differences that are small angles yet; where n changes, the second solution is put where its difference is that of
+//! the new n. Each of the last steps, fewer than n, adds the difference of one of them and two of half its length. Where torques are held, the second takes steps of half the length,
 //! and samples of its own, so that the law answers to its errors, too; a base torque is that of the first. Adaptive steps are
 //! followed with a larger tolerance, and compared after a few of them: to end one at each step of the phase would take more of
 //! them.
@@ -27,8 +28,14 @@ const ADAPTIVE_SHARE: f64 = -0.1;
 const COMPARED: f64 = 4.0;
 /// Steps of the first solution to one of the second.
 const STRIDE: u32 = 2;
-/// The same of Runge–Kutta steps without feedback.
-const FREE_STRIDE: u32 = 4;
+/// The same of Runge–Kutta steps without feedback, from the longest; the last one at first, and where none is within the limits.
+const FREE_STRIDES: [u32; 3] = [16, 8, 4];
+/// Of these steps.
+const FREE_ORDER: i32 = 4;
+/// Their limits: the angle by which all joints and the base turn in a longer step at most, rad, of which the fourth power is the error of
+/// the second solution; and its difference from the first, rad or m, which is to grow as a small one does.
+const MOST_TURN: f64 = 0.05;
+const MOST_DIFFERENCE: f64 = 1e-3;
 /// Length of a step where torques are held, or where one is compared with two, over that of the first solution's.
 const HALF: f64 = 0.5;
 /// An error that no phase passes with, for a second solution that cannot be continued; rad, m.
@@ -42,8 +49,9 @@ pub(super) struct Companion {
     last_step: [Vec<f64>; 2],
     /// Steps over which this solution has not followed yet, s.
     pending: Option<[f64; 2]>,
-    /// The number of steps that one of this solution is as long as.
+    /// The number of steps that one of this solution is as long as, and whether it follows the motion.
     stride: u32,
+    is_free: bool,
     /// How many of these are pending.
     count: u32,
     /// The order of the steps; `None` where they follow from a tolerance.
@@ -71,7 +79,7 @@ impl Companion {
         let order = integrator.properties().order;
         // implicit steps are long already, and steps of order 1 follow a motion less well
         let is_free = integrator == Integrator::RungeKutta4 && !equation.control.has_feedback();
-        let stride = if is_free { FREE_STRIDE } else { STRIDE };
+        let stride = if is_free { FREE_STRIDES[2] } else { STRIDE };
         let share = match order {
             None => ADAPTIVE_SHARE,
             Some(order) if equation.control.held_steps().is_some() => share_of(HALF, order),
@@ -90,6 +98,7 @@ impl Companion {
             last_step,
             pending: None,
             stride,
+            is_free,
             count: 0,
             order,
             share,
@@ -127,22 +136,52 @@ impl Companion {
         }
         match self.exchanged(equation, |own, equation| own.advance(equation, span)) {
             Ok(false) => {}
-            Ok(true) => self.compare(x),
+            Ok(true) => {
+                let difference = self.compare(x);
+                if self.is_free {
+                    self.choose_stride(span[1] - span[0], difference);
+                }
+            }
             Err(_) => self.lose(),
         }
     }
 
-    /// Takes the error where the first solution is `x`.
-    fn compare(&mut self, x: &[f64]) {
-        self.error = Real::maximum(self.error, self.share.abs() * largest_difference(x, &self.x));
+    /// Takes the error where the first solution is `x`; returns the largest difference of a position.
+    fn compare(&mut self, x: &[f64]) -> f64 {
+        let difference = largest_difference(x, &self.x);
+        self.error = Real::maximum(self.error, self.share.abs() * difference);
         self.first.copy_from_slice(x);
+        difference
+    }
+
+    /// Takes the longest steps that are within the limits, for steps of a length (s) of the first solution.
+    fn choose_stride(&mut self, step: f64, difference: f64) {
+        let joints = self.held.len();
+        let rates = split(&self.x).map_or(&[][..], |x| x.rates);
+        let turns = rates.iter().take(1).chain(rates.iter().skip(3).take(joints)).map(|rate| rate.abs()).sum::<f64>();
+        let error = self.share.abs() * difference;
+        let is_within = |stride: &u32| {
+            let stride = f64::from(*stride);
+            stride * step * turns <= MOST_TURN && error <= MOST_DIFFERENCE * share_of(stride, FREE_ORDER).abs()
+        };
+        let [.., shortest] = FREE_STRIDES;
+        let stride = FREE_STRIDES.into_iter().find(is_within).unwrap_or(shortest);
+        if stride != self.stride {
+            self.stride = stride;
+            self.take_share(share_of(stride.into(), FREE_ORDER));
+        }
     }
 
     /// Takes the order as one from here on, with the same error so far.
     fn lower_order(&mut self) {
-        let before = std::mem::replace(&mut self.share, share_of(self.stride.into(), 1));
-        self.order = Some(1);
-        self.x.iter_mut().zip(&self.first).for_each(|(x, first)| *x = first - (first - *x) * before / self.share);
+        (self.order, self.is_free) = (Some(1), false);
+        self.take_share(share_of(self.stride.into(), 1));
+    }
+
+    /// Puts this solution where its difference from the first has this share in the same error.
+    fn take_share(&mut self, share: f64) {
+        let before = std::mem::replace(&mut self.share, share);
+        self.x.iter_mut().zip(&self.first).for_each(|(x, first)| *x = first - (first - *x) * before / share);
     }
 
     /// The largest error of a position (rad, m), and those of the robot's positions and rates at the end; with those of the last steps
@@ -173,7 +212,7 @@ impl Companion {
         match self.exchanged(equation, |own, equation| own.steps.advance_to_end(equation, span, &mut own.x)) {
             Ok(()) => {
                 let latest = std::mem::take(&mut self.latest);
-                self.compare(&latest);
+                let _ = self.compare(&latest);
             }
             Err(_) => self.lose(),
         }

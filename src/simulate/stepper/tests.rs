@@ -1,12 +1,12 @@
 //! A phase in the moving frame against the same in the inertial frame.
 
 use crate::contact::{ContactPartner, LoopConstraint};
-use crate::control::Control;
+use crate::control::{BaseTorque, Control};
 use crate::dynamics::AnyModel;
 use crate::error::Error;
 use crate::owned::{CloneModel, RobotState};
 use crate::registry;
-use crate::simulate::event::{EventState, Events};
+use crate::simulate::event::{EventState, Events, NoEvents};
 use crate::simulate::moving_frame::MovingFrame;
 use crate::simulate::path::PathPart;
 use crate::simulate::stepper::{Formulation, Integration, Integrator};
@@ -200,4 +200,53 @@ fn the_frame_moves_with_the_centre_of_mass() {
     let x = system.vector(&state.view()).expect("a vector");
     let found = MovingFrame::of(&system, &x, 1e6).expect("a frame");
     assert_close("slow", &found.velocity, &[0.0; 2], 0.0);
+}
+
+/// Constant torques, with one on the base or without, which say so or not.
+struct Constant {
+    base_torque: Option<BaseTorque<f64>>,
+    says_so: bool,
+    calls: u32,
+}
+
+impl Control<f64> for Constant {
+    fn joint_torques(
+        &mut self,
+        _: f64,
+        _: &AnyModel<f64>,
+        _: &State<'_, f64>,
+        torques: &mut [f64],
+    ) -> Result<(), Error> {
+        self.calls += 1;
+        torques.iter_mut().zip(1_u8..).for_each(|(torque, joint)| *torque = 0.5 / f64::from(joint));
+        Ok(())
+    }
+
+    fn is_constant(&self) -> bool {
+        self.says_so
+    }
+
+    fn base_torque(&self) -> Option<BaseTorque<f64>> {
+        self.base_torque
+    }
+}
+
+/// The motion has the bits of that under torques that are asked for at every stage.
+#[test]
+fn constant_torques_are_asked_for_once_a_step() {
+    const STEPS: u32 = 20;
+    let model = registry::generated(&layout("single_arm_3r")).expect("a compiled layout");
+    let (joint_angles, joint_rates) = (vec![0.3, -0.8, 0.5], vec![0.2, 0.1, -0.4]);
+    let start = RobotState { base_pose: [0.1, 0.4, -0.2], joint_angles, base_twist: [0.05, 0.1, 0.0], joint_rates };
+    let timing = Timing { duration: 0.05 * f64::from(STEPS), step: 0.05, sample: 0.05, ..Timing::default() };
+    let run = |base_torque, says_so| {
+        let mut law = Constant { base_torque, says_so, calls: 0 };
+        let phase = simulate(&System::alone(&*model), &mut law, &start, &timing, &mut NoEvents, &mut || ());
+        (phase.expect("a phase"), law.calls)
+    };
+    for base_torque in [None, Some(BaseTorque { torque: -0.7, saturated: false })] {
+        let [(once, few), (each, many)] = [true, false].map(|says_so| run(base_torque, says_so));
+        assert_eq!(once.samples, each.samples, "{base_torque:?}");
+        assert!(base_torque.is_some() || few + 3 * STEPS < many, "{few} of {many} calls");
+    }
 }

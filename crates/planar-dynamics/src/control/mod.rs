@@ -76,6 +76,12 @@ pub trait Control<T: Real, M: Model<T> + ?Sized = AnyModel<T>> {
         None
     }
 
+    /// Whether the torques, with the base torque, are the same from [`Control::begin_step`] to the end of the step, whatever time and
+    /// state are: then an integrator may ask for them once.
+    fn is_constant(&self) -> bool {
+        self.held_steps().is_some()
+    }
+
     /// Takes the sample of the step that [`Control::begin_step`] will begin, for another solution of the same motion: where
     /// that step takes one, the torques in `state` are written to `held`. A continuous law does nothing.
     ///
@@ -145,6 +151,10 @@ impl<T: Real, M: Model<T> + ?Sized, C: Control<T, M> + ?Sized> Control<T, M> for
         (**self).held_steps()
     }
 
+    fn is_constant(&self) -> bool {
+        (**self).is_constant()
+    }
+
     fn sample_beside(&mut self, time: T, model: &M, state: &State<'_, T>, held: &mut [T]) -> Result<(), Error> {
         (**self).sample_beside(time, model, state, held)
     }
@@ -186,6 +196,10 @@ impl<T: Real, M: Model<T> + ?Sized> Control<T, M> for ZeroTorque {
 
     fn has_feedback(&self) -> bool {
         false
+    }
+
+    fn is_constant(&self) -> bool {
+        true
     }
 }
 

@@ -40,6 +40,10 @@ impl<T: Real, M: Model<T> + ?Sized, C: Control<T, M>> Control<T, M> for TorqueLi
         self.law.held_steps()
     }
 
+    fn is_constant(&self) -> bool {
+        self.law.is_constant()
+    }
+
     fn sample_beside(&mut self, time: T, model: &M, state: &State<'_, T>, held: &mut [T]) -> Result<(), Error> {
         self.law.sample_beside(time, model, state, held)
     }

@@ -92,7 +92,7 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
             control.joint_torques(time, model, &State::from_vector(x, model.joints()).ok()?, torques).ok()?;
             control.base_torque().is_none().then_some(())
         };
-        if model.step_at_once(&mut torques_at, [time, step], x, torques).is_some() {
+        if model.step_at_once(Some(&mut torques_at), [time, step], x, torques).is_some() {
             return Ok(());
         }
         self.step_by_stages(model, control, time, step, x, torques)

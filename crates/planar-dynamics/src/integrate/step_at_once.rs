@@ -1,11 +1,11 @@
 //! A Runge–Kutta step of a robot whose number of joints the compiler knows, with one look at its numbers, at the end.
 
 use super::runge_kutta4::{advance, stages};
-use crate::dynamics::TorquesAt;
 use crate::linear::{add_scaled, dot};
 use crate::scalar::Real;
 use crate::state::{split, split_mut};
 use crate::validate::{all_finite, is_regular};
+use core::hint::black_box;
 
 /// Positions or rates of a robot: of the base and the joints.
 pub type Half<'a, T, const JOINTS: usize> = (&'a [T; 3], &'a [T; JOINTS]);
@@ -22,8 +22,8 @@ type Numbers<'a, T, const JOINTS: usize, const LENGTH: usize> =
 #[inline(always)]
 #[allow(clippy::inline_always, reason = "the caller may know the torques")]
 pub fn step_at_once<T: Real, const JOINTS: usize, const LENGTH: usize>(
-    accelerate: impl Fn([Half<'_, T, JOINTS>; 2], &[T; JOINTS], &mut [T; 3], &mut [T; JOINTS]) -> T,
-    torques_at: &mut TorquesAt<'_, T>,
+    accelerate: &impl Fn([Half<'_, T, JOINTS>; 2], &[T; JOINTS], &mut [T; 3], &mut [T; JOINTS]) -> T,
+    torques_at: &mut (impl FnMut(T, &[T], &mut [T]) -> Option<()> + ?Sized),
     [time, step]: [T; 2],
     x: &mut [T],
     torques: &mut [T],
@@ -38,10 +38,10 @@ pub fn step_at_once<T: Real, const JOINTS: usize, const LENGTH: usize>(
     // four times in the text: a loop would look up the weights
     let [first, second, third, fourth] = stages(step).map(|(at, weight, next)| (time + at, weight, next));
     let pivots = [
-        stage_at_once(&accelerate, torques_at, first, x, &mut all, torques)?,
-        stage_at_once(&accelerate, torques_at, second, x, &mut all, torques)?,
-        stage_at_once(&accelerate, torques_at, third, x, &mut all, torques)?,
-        stage_at_once(&accelerate, torques_at, fourth, x, &mut all, torques)?,
+        stage_at_once(accelerate, torques_at, first, x, &mut all, torques)?,
+        stage_at_once(accelerate, torques_at, second, x, &mut all, torques)?,
+        stage_at_once(accelerate, torques_at, third, x, &mut all, torques)?,
+        stage_at_once(accelerate, torques_at, fourth, x, &mut all, torques)?,
     ];
     if !(pivots.into_iter().fold(true, |all, pivot| all & is_regular(pivot)) && all_finite([&sum, &places])) {
         return None;
@@ -55,7 +55,7 @@ pub fn step_at_once<T: Real, const JOINTS: usize, const LENGTH: usize>(
 #[allow(clippy::inline_always, reason = "as where it is called")]
 fn stage_at_once<T: Real, const JOINTS: usize, const LENGTH: usize>(
     accelerate: &impl Fn([Half<'_, T, JOINTS>; 2], &[T; JOINTS], &mut [T; 3], &mut [T; JOINTS]) -> T,
-    torques_at: &mut TorquesAt<'_, T>,
+    torques_at: &mut (impl FnMut(T, &[T], &mut [T]) -> Option<()> + ?Sized),
     (time, weight, next): (T, T, T),
     x: &[T; LENGTH],
     (stage, sum, places, (base, joints)): &mut Numbers<'_, T, JOINTS, LENGTH>,
@@ -87,4 +87,12 @@ fn stage_at_once<T: Real, const JOINTS: usize, const LENGTH: usize>(
 fn parts<T, const JOINTS: usize>(half: &[T]) -> Option<Half<'_, T, JOINTS>> {
     let (base, joints) = half.split_first_chunk()?;
     Some((base, joints.try_into().ok()?))
+}
+
+/// The same reference. Where the processor has vectors, the compiler does not know what is beside the number, and loads it alone: a
+/// vector over two stores would wait until both are in the cache.
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "there is nothing to call")]
+pub fn unknown<X>(reference: &X) -> &X {
+    if cfg!(any(target_arch = "x86_64", target_arch = "aarch64")) { black_box(reference) } else { reference }
 }

@@ -276,6 +276,27 @@ fn an_error_at_the_start_is_followed() {
     assert!((given.end_error[0][4].abs() / (end - other_end).abs() - 1.0).abs() < 0.05, "{:?}", given.end_error);
 }
 
+/// In a slow motion the second solution takes steps of eight or sixteen times the length, and is put further from the first.
+#[test]
+fn slow_motions_are_followed_by_longer_steps() {
+    let (model, mut start) = (model(), initial());
+    start.base_twist.iter_mut().chain(&mut start.joint_rates).for_each(|rate| *rate *= 0.25);
+    let timing =
+        Timing { duration: 10.0, step: STEP / 64.0, sample: STEP, integration: Integration::default(), kink: None };
+    let from = |state: &RobotState, start_error: [&[f64]; 2]| {
+        let system = System { start_error, ..System::alone(&*model) };
+        simulate(&system, &mut ZeroTorque, state, &timing, &mut NoEvents, &mut || ()).expect("a phase")
+    };
+    for size in [1e-9, 1e-7] {
+        let mut beside = start.clone();
+        beside.joint_rates[1] += size;
+        let (given, alone) = (from(&start, [&[], &[0.0, 0.0, 0.0, 0.0, size]]), from(&start, [&[]; 2]));
+        let grown = largest(from(&beside, [&[]; 2]).samples.iter(), alone.samples.iter());
+        assert!(alone.path_error < 1e-3 * grown && grown > size, "{size}: {} {grown}", alone.path_error);
+        assert!((given.path_error / grown - 1.0).abs() < 0.01, "{size}: {} {grown}", given.path_error);
+    }
+}
+
 /// A second phase that starts with a large error ends with what the motion makes of it, with its sign.
 #[test]
 fn errors_of_two_phases_have_their_signs() {
