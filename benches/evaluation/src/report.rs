@@ -51,7 +51,7 @@ Runge–Kutta steps of 1 ms with PD control, 20 s of motion, per step. By hand: 
 neither pivot nor numbers. The library's integrator, law and equation take slices, check the pivot and that numbers
 are finite, and integrate the work of the joints too. All are generic over robot and law; those of any are `dyn`, and vectors of any
 length: a step is one call of the robot then, and four of the law. A simulation, of any robot and law, also audits momentum, energy
-and centre of mass at every step, estimates the error of its path by steps of twice the length, and keeps its path. The audit alone is
+and centre of mass at every step, estimates the error of its path by longer steps, and keeps its path. The audit alone is
 that of states in order, of which it takes eight at once.
 
 | |";
