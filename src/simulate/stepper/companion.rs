@@ -49,8 +49,9 @@ pub(super) struct Companion {
     last_step: [Vec<f64>; 2],
     /// Steps over which this solution has not followed yet, s.
     pending: Option<[f64; 2]>,
-    /// The number of steps that one of this solution is as long as, and whether it follows the motion.
+    /// The number of steps that one of this solution is as long as.
     stride: u32,
+    /// Whether that number follows the motion.
     is_free: bool,
     /// How many of these are pending.
     count: u32,
@@ -212,7 +213,7 @@ impl Companion {
         match self.exchanged(equation, |own, equation| own.steps.advance_to_end(equation, span, &mut own.x)) {
             Ok(()) => {
                 let latest = std::mem::take(&mut self.latest);
-                let _ = self.compare(&latest);
+                self.compare(&latest);
             }
             Err(_) => self.lose(),
         }

@@ -214,6 +214,13 @@ pub(crate) fn desired<T: Real>(
     trajectory.joint(joint, time).ok_or(Error::Length { quantity: "trajectory", expected, found: joint })
 }
 
+/// [`Error::Length`] for a trajectory of fewer than `expected` joints.
+#[cold]
+fn missing<T: Real>(trajectory: &impl Trajectory<T>, time: T, expected: usize) -> Error {
+    let found = (0..expected).find(|joint| trajectory.joint(*joint, time).is_none()).unwrap_or(expected);
+    Error::Length { quantity: "trajectory", expected, found }
+}
+
 /// Eq. (2): `τ = I θ̈ + c`, the torques for these joint accelerations.
 fn inverse_dynamics<T: Real>(
     generalized_inertia: &[T],

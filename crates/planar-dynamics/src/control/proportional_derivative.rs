@@ -1,6 +1,6 @@
 //! Proportional-derivative control, eq. (18): joint torques from the errors of joint angles and rates.
 
-use super::{Control, desired};
+use super::{Control, missing};
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::scalar::Real;
@@ -27,19 +27,12 @@ impl<T: Real, M: Model<T> + ?Sized, R: Trajectory<T>> Control<T, M> for Proporti
         let expected = torques.len();
         length("proportional_gain", expected, self.proportional_gain.len())?;
         length("derivative_gain", expected, self.derivative_gain.len())?;
-        // with the last joint, all are there: where a compiler sees that, it computes them in vectors
-        let missing = |joint: &usize| self.trajectory.joint(*joint, time).is_none();
-        if cfg!(not(target_arch = "arm")) && expected.checked_sub(1).is_some_and(|last| missing(&last)) {
-            let found = (0..expected).find(missing).unwrap_or_default();
-            return desired(&self.trajectory, found, time, expected).map(drop);
-        }
         let gains = self.proportional_gain.iter().zip(self.derivative_gain);
-        let joints = state.joint_angles.iter().zip(state.joint_rates).zip(gains);
-        // a counter of `enumerate` could overflow, as far as a compiler sees that checks it
-        for (joint, (torque, ((angle, rate), (kp, kv)))) in (0..expected).zip(torques.iter_mut().zip(joints)) {
-            let desired = desired(&self.trajectory, joint, time, expected)?;
-            *torque = *kp * (desired.angle - *angle) + *kv * (desired.rate - *rate);
-        }
-        Ok(())
+        let joints = torques.iter_mut().zip(state.joint_angles.iter().zip(state.joint_rates).zip(gains));
+        let followed = self.trajectory.each_joint(time, joints, |(torque, ((angle, rate), (kp, kv))), desired| {
+            // two signs of eq. (18) exchanged: without a desired rate there is nothing to subtract
+            *torque = *kp * (desired.angle - *angle) - *kv * (*rate - desired.rate);
+        });
+        followed.ok_or_else(|| missing(&self.trajectory, time, expected))
     }
 }

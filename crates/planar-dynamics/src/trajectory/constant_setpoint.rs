@@ -15,4 +15,18 @@ impl<T: Real> Trajectory<T> for ConstantSetpoint<'_, T> {
     fn joint(&self, joint: usize, _: T) -> Option<DesiredJoint<T>> {
         Some(DesiredJoint { angle: *self.angles.get(joint)?, rate: T::ZERO, acceleration: T::ZERO })
     }
+
+    #[inline(always)]
+    fn each_joint<J>(
+        &self,
+        _: T,
+        joints: impl ExactSizeIterator<Item = J>,
+        mut follow: impl FnMut(J, DesiredJoint<T>),
+    ) -> Option<()> {
+        let angles = self.angles.get(..joints.len())?;
+        for (joint, angle) in joints.zip(angles) {
+            follow(joint, DesiredJoint { angle: *angle, rate: T::ZERO, acceleration: T::ZERO });
+        }
+        Some(())
+    }
 }

@@ -13,8 +13,34 @@ pub struct Cycloidal<'a, T> {
 impl<T: Real> Trajectory<T> for Cycloidal<'_, T> {
     #[inline]
     fn joint(&self, joint: usize, time: T) -> Option<DesiredJoint<T>> {
-        let ([from, to], duration) = (self.motion.angles(joint)?, self.motion.duration);
-        let (change, tau) = (to - from, normalized_time(time, duration));
+        Some(CycloidalAt::new(self.motion.duration, time).joint(self.motion.angles(joint)?))
+    }
+
+    #[inline(always)]
+    fn each_joint<J>(
+        &self,
+        time: T,
+        joints: impl ExactSizeIterator<Item = J>,
+        mut follow: impl FnMut(J, DesiredJoint<T>),
+    ) -> Option<()> {
+        let at = CycloidalAt::new(self.motion.duration, time);
+        self.motion.each_joint(joints, |joint, angles| follow(joint, at.joint(angles)))
+    }
+}
+
+/// What the joints have in common at one time: the factors of the change of the angle.
+struct CycloidalAt<T> {
+    of_angle: T,
+    of_rate: T,
+    /// Of the acceleration times the duration: of a very short motion, that of a joint which stays is still a number.
+    of_acceleration: T,
+    duration: T,
+}
+
+impl<T: Real> CycloidalAt<T> {
+    #[inline]
+    fn new(duration: T, time: T) -> Self {
+        let tau = normalized_time(time, duration);
         let turn = T::constant(core::f64::consts::TAU);
         // the second half by the time that is left: at rest at its end, where the sine of 2π rounded is not zero
         let left = T::ONE - tau;
@@ -22,12 +48,22 @@ impl<T: Real> Trajectory<T> for Cycloidal<'_, T> {
             (sin, cos) if tau > left => (-sin, cos),
             first_half => first_half,
         };
-        let mean_rate = change / duration;
-        Some(DesiredJoint {
-            angle: from + change * (tau - sin / turn),
-            rate: mean_rate * (T::ONE - cos),
-            acceleration: mean_rate * turn * sin / duration,
-        })
+        Self {
+            of_angle: tau - sin / turn,
+            of_rate: (T::ONE - cos) / duration,
+            of_acceleration: turn * sin / duration,
+            duration,
+        }
+    }
+
+    #[inline(always)]
+    fn joint(&self, [from, to]: [T; 2]) -> DesiredJoint<T> {
+        let change = to - from;
+        DesiredJoint {
+            angle: from + change * self.of_angle,
+            rate: change * self.of_rate,
+            acceleration: change * self.of_acceleration / self.duration,
+        }
     }
 }
 

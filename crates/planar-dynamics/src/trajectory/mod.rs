@@ -27,6 +27,7 @@ pub use constant_setpoint::ConstantSetpoint;
 pub use cycloidal::Cycloidal;
 pub use end_effector_path::{DesiredEndEffector, EndEffectorPath};
 pub use quartic::{Quartic, QuarticAsPrinted};
+use quintic::QuinticAt;
 pub use quintic::{Quintic, quintic};
 
 use crate::scalar::Real;
@@ -47,6 +48,26 @@ pub struct DesiredJoint<T> {
 pub trait Trajectory<T> {
     /// The desired motion of `joint` at `time` (s); `None` for a joint that the trajectory does not have.
     fn joint(&self, joint: usize, time: T) -> Option<DesiredJoint<T>>;
+
+    /// Hands each of these joints, the first ones of the robot, to `follow` with its desired motion at `time` (s); `None` where the
+    /// trajectory has fewer, which may have been handed on. What the joints have in common a trajectory may compute once.
+    #[inline(always)]
+    fn each_joint<J>(
+        &self,
+        time: T,
+        joints: impl ExactSizeIterator<Item = J>,
+        mut follow: impl FnMut(J, DesiredJoint<T>),
+    ) -> Option<()>
+    where
+        Self: Sized,
+        T: Copy,
+    {
+        // a counter of `enumerate` could overflow, as far as a compiler sees that checks it
+        for (index, joint) in (0..joints.len()).zip(joints) {
+            follow(joint, self.joint(index, time)?);
+        }
+        Some(())
+    }
 }
 
 /// The properties of a kind of joint trajectory.
@@ -91,10 +112,21 @@ impl<T: Real> PointToPoint<'_, T> {
         Some([*self.initial_angles.get(joint)?, *self.final_angles.get(joint)?])
     }
 
-    /// [`quintic()`] of a joint with these initial and final rates.
+    /// Initial and final angles of the first joints, as many as these, which are handed to `follow` with them.
     #[inline(always)]
-    fn quintic(&self, joint: usize, rates: [T; 2], time: T) -> Option<DesiredJoint<T>> {
-        Some(quintic(self.angles(joint)?, rates, self.duration, normalized_time(time, self.duration)))
+    fn each_joint<J>(&self, joints: impl ExactSizeIterator<Item = J>, mut follow: impl FnMut(J, [T; 2])) -> Option<()> {
+        let count = joints.len();
+        let angles = self.initial_angles.get(..count)?.iter().zip(self.final_angles.get(..count)?);
+        for (joint, (from, to)) in joints.zip(angles) {
+            follow(joint, [*from, *to]);
+        }
+        Some(())
+    }
+
+    /// [`quintic()`] at a time.
+    #[inline(always)]
+    fn quintic_at(&self, time: T) -> QuinticAt<T> {
+        QuinticAt::new(self.duration, normalized_time(time, self.duration))
     }
 }
 
@@ -150,6 +182,18 @@ macro_rules! kinds {
             fn joint(&self, joint: usize, time: T) -> Option<DesiredJoint<T>> {
                 match self {
                     $(Self::$kind(trajectory) => trajectory.joint(joint, time),)*
+                }
+            }
+
+            #[inline(always)]
+            fn each_joint<J>(
+                &self,
+                time: T,
+                joints: impl ExactSizeIterator<Item = J>,
+                follow: impl FnMut(J, DesiredJoint<T>),
+            ) -> Option<()> {
+                match self {
+                    $(Self::$kind(trajectory) => trajectory.each_joint(time, joints, follow),)*
                 }
             }
         }

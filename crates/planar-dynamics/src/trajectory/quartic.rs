@@ -24,7 +24,22 @@ pub struct Quartic<'a, T> {
 impl<T: Real> Trajectory<T> for Quartic<'_, T> {
     #[inline(always)]
     fn joint(&self, joint: usize, time: T) -> Option<DesiredJoint<T>> {
-        self.motion.quintic(joint, [T::ZERO, *self.final_rates.get(joint)?], time)
+        let rates = [T::ZERO, *self.final_rates.get(joint)?];
+        Some(self.motion.quintic_at(time).joint(self.motion.angles(joint)?, rates))
+    }
+
+    #[inline(always)]
+    fn each_joint<J>(
+        &self,
+        time: T,
+        joints: impl ExactSizeIterator<Item = J>,
+        mut follow: impl FnMut(J, DesiredJoint<T>),
+    ) -> Option<()> {
+        let at = self.motion.quintic_at(time);
+        let rates = self.final_rates.get(..joints.len())?;
+        self.motion.each_joint(joints.zip(rates), |(joint, rate), angles| {
+            follow(joint, at.joint(angles, [T::ZERO, *rate]));
+        })
     }
 }
 
@@ -49,7 +64,22 @@ pub struct QuarticAsPrinted<'a, T> {
 impl<T: Real> Trajectory<T> for QuarticAsPrinted<'_, T> {
     #[inline(always)]
     fn joint(&self, joint: usize, time: T) -> Option<DesiredJoint<T>> {
-        self.motion.quintic(joint, [T::ZERO, *self.final_rates.get(joint)? / self.motion.duration], time)
+        let rates = [T::ZERO, *self.final_rates.get(joint)? / self.motion.duration];
+        Some(self.motion.quintic_at(time).joint(self.motion.angles(joint)?, rates))
+    }
+
+    #[inline(always)]
+    fn each_joint<J>(
+        &self,
+        time: T,
+        joints: impl ExactSizeIterator<Item = J>,
+        mut follow: impl FnMut(J, DesiredJoint<T>),
+    ) -> Option<()> {
+        let at = self.motion.quintic_at(time);
+        let rates = self.final_rates.get(..joints.len())?;
+        self.motion.each_joint(joints.zip(rates), |(joint, rate), angles| {
+            follow(joint, at.joint(angles, [T::ZERO, *rate / self.motion.duration]));
+        })
     }
 }
 

@@ -23,14 +23,20 @@ static void quartic(real time, real angles[JOINTS], real rates[JOINTS])
     const real tau = time / DURATION;
     const real tau2 = tau * tau;
     const real tau3 = tau * tau * tau;
+    const real of_angle[2] = {
+        tau3 * ((real)10.0 - (real)15.0 * tau + (real)6.0 * tau2),
+        DURATION * (tau3 * ((real)-4.0 + (real)7.0 * tau - (real)3.0 * tau2)),
+    };
+    const real of_rate[2] = {
+        tau2 * ((real)30.0 - (real)60.0 * tau + (real)30.0 * tau2) / DURATION,
+        tau2 * ((real)-12.0 + (real)28.0 * tau - (real)15.0 * tau2),
+    };
     for (int i = 0; i < JOINTS; ++i) {
         const real from = initial_angles[i % 6];
         const real change = final_angles[i % 6] - from;
         const real end = final_rates[i % 6];
-        angles[i] = from + (change * tau3 * ((real)10.0 - (real)15.0 * tau + (real)6.0 * tau2)
-            + end * DURATION * tau3 * ((real)-4.0 + (real)7.0 * tau - (real)3.0 * tau2));
-        rates[i] = change / DURATION * tau2 * ((real)30.0 - (real)60.0 * tau + (real)30.0 * tau2)
-            + end * tau2 * ((real)-12.0 + (real)28.0 * tau - (real)15.0 * tau2);
+        angles[i] = from + (change * of_angle[0] + end * of_angle[1]);
+        rates[i] = change * of_rate[0] + end * of_rate[1];
     }
 }
 

@@ -67,13 +67,16 @@ fn quartic(time: Real) -> ([Real; JOINTS], [Real; JOINTS]) {
     let (mut angles, mut rates) = (mission::INITIAL_ANGLES, [0.0; JOINTS]);
     let tau = time / mission::DURATION;
     let (tau2, tau3) = (tau * tau, tau * tau * tau);
+    let of_angle =
+        [tau3 * (10.0 - 15.0 * tau + 6.0 * tau2), mission::DURATION * (tau3 * (-4.0 + 7.0 * tau - 3.0 * tau2))];
+    let of_rate =
+        [tau2 * (30.0 - 60.0 * tau + 30.0 * tau2) / mission::DURATION, tau2 * (-12.0 + 28.0 * tau - 15.0 * tau2)];
     let ends = mission::FINAL_ANGLES.iter().zip(&mission::FINAL_RATES);
     for ((angle, rate), (to, end)) in angles.iter_mut().zip(&mut rates).zip(ends) {
         let change = *to - *angle;
-        *angle += change * tau3 * (10.0 - 15.0 * tau + 6.0 * tau2)
-            + *end * mission::DURATION * tau3 * (-4.0 + 7.0 * tau - 3.0 * tau2);
-        *rate = change / mission::DURATION * tau2 * (30.0 - 60.0 * tau + 30.0 * tau2)
-            + *end * tau2 * (-12.0 + 28.0 * tau - 15.0 * tau2);
+        let sum = |[of_change, of_end]: [Real; 2]| change * of_change + *end * of_end;
+        *angle += sum(of_angle);
+        *rate = sum(of_rate);
     }
     (angles, rates)
 }

@@ -3,7 +3,8 @@
 use planar_capture::integrate::RungeKutta4;
 use planar_capture::scalar::Dual;
 use planar_capture::trajectory::{
-    Cycloidal, EndEffectorPath, PointToPoint, Quartic, QuarticAsPrinted, Quintic, Trajectory, quintic,
+    ConstantSetpoint, Cycloidal, DesiredJoint, EndEffectorPath, PointToPoint, Quartic, QuarticAsPrinted, Quintic,
+    Trajectory, TrajectoryKind, quintic,
 };
 use planar_proof::{assert_close, tolerance};
 
@@ -45,6 +46,52 @@ fn check_from(trajectory: &impl Trajectory<f64>, initial_rates: &[f64; 3], final
         assert_eq!(at(DURATION + 1.0), end, "after the end it stays there");
     }
     assert_eq!(trajectory.joint(3, 0.0), None);
+}
+
+/// A trajectory of one's own, which names one joint at a time.
+struct OneByOne<R>(R);
+
+impl<R: Trajectory<f64>> Trajectory<f64> for OneByOne<R> {
+    fn joint(&self, joint: usize, time: f64) -> Option<DesiredJoint<f64>> {
+        self.0.joint(joint, time)
+    }
+}
+
+/// What joints have in common, computed once, changes no bit; and those that a trajectory lacks are not left out.
+#[test]
+fn motions_of_all_joints_are_those_of_each() {
+    fn check(trajectory: &impl Trajectory<f64>) {
+        for time in [-1.0, 0.0, 3.7, 11.0, DURATION, DURATION + 1.0] {
+            for count in 0..=3 {
+                let mut motions = Vec::new();
+                let all = trajectory.each_joint(time, 0..count, |joint, desired| motions.push((joint, desired)));
+                assert_eq!(all, Some(()));
+                let expected = |joint| (joint, trajectory.joint(joint, time).expect("a joint"));
+                assert_eq!(motions, (0..count).map(expected).collect::<Vec<_>>());
+            }
+            assert_eq!(trajectory.each_joint(time, 0..4, |_, _| ()), None);
+        }
+    }
+    for kind in TrajectoryKind::ALL {
+        let trajectory = kind.trajectory(motion(), &[0.1, 0.03, -0.2], &RATES);
+        check(&trajectory);
+        check(&OneByOne(trajectory));
+    }
+    check(&ConstantSetpoint { angles: &FROM });
+    // initial and final angles, or rates, of fewer joints
+    let long = [1.0; 4];
+    for initial_angles in [&FROM[..], &long] {
+        for final_angles in [&TO[..], &long] {
+            for final_rates in [&RATES[..], &long] {
+                if [initial_angles, final_angles, final_rates] != [&long; 3] {
+                    let motion = PointToPoint { initial_angles, final_angles, duration: DURATION };
+                    check(&Quartic { motion, final_rates });
+                    check(&Quintic { motion, initial_rates: &long, final_rates });
+                    check(&Quintic { motion, initial_rates: final_rates, final_rates: &long });
+                }
+            }
+        }
+    }
 }
 
 #[test]
@@ -98,7 +145,7 @@ fn quintic_from_rest_is_eq_6() {
     for (joint, i) in (0..3).flat_map(|joint| (0..=10).map(move |i| (joint, i))) {
         let time = f64::from(i) * DURATION / 10.0;
         let [a, b] = [quartic.joint(joint, time), quintic.joint(joint, time)].map(|d| d.expect("a joint"));
-        let values = |d: planar_capture::trajectory::DesiredJoint<f64>| [d.angle, d.rate, d.acceleration];
+        let values = |d: DesiredJoint<f64>| [d.angle, d.rate, d.acceleration];
         assert_close("eq. (6)", &values(a), &values(b), tolerance::POLYNOMIAL);
     }
 }
@@ -129,7 +176,7 @@ fn quartic_is_the_polynomial_of_eq_6() {
             let corrected = literal(DURATION * RATES[joint] / change, tau);
             let printed = literal(RATES[joint] / change, tau);
             let time = tau * DURATION;
-            let rate = |found: Option<planar_capture::trajectory::DesiredJoint<f64>>| found.expect("a joint").rate;
+            let rate = |found: Option<DesiredJoint<f64>>| found.expect("a joint").rate;
             let quartic = rate(Quartic { motion: motion(), final_rates: &RATES }.joint(joint, time));
             let as_printed = rate(QuarticAsPrinted { motion: motion(), final_rates: &RATES }.joint(joint, time));
             assert_close("eq. (6)", &[quartic, as_printed], &[corrected, printed], 10.0 * tolerance::POLYNOMIAL);
