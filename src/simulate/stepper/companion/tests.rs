@@ -1,5 +1,6 @@
 //! The estimated path error is what Richardson's extrapolation gives of two simulations, for every integrator.
 
+use super::{FREE_ORDER, MOST_DIFFERENCE, share_of};
 use crate::control::{Control, ProportionalDerivative, SampledControl, ZeroTorque};
 use crate::dynamics::AnyModel;
 use crate::error::Error;
@@ -295,6 +296,17 @@ fn slow_motions_are_followed_by_longer_steps() {
         assert!(alone.path_error < 1e-3 * grown && grown > size, "{size}: {} {grown}", alone.path_error);
         assert!((given.path_error / grown - 1.0).abs() < 0.01, "{size}: {} {grown}", given.path_error);
     }
+}
+
+/// In a fast motion they are of four times the length, also where the difference would allow longer ones.
+#[test]
+fn fast_motions_are_followed_by_steps_of_four_times_the_length() {
+    let step = STEP / 8.0;
+    let at = |step| run(Integrator::RungeKutta4, &mut ZeroTorque, &initial(), [16.0 * STEP, step]);
+    let (found, longer) = (at(step), at(4.0 * step));
+    let expected = largest(found.samples.iter().step_by(4), longer.samples.iter()) / 255.0;
+    assert!(expected < MOST_DIFFERENCE * share_of(8.0, FREE_ORDER).abs(), "{expected}");
+    check("a fast motion", found.path_error, expected);
 }
 
 /// A second phase that starts with a large error ends with what the motion makes of it, with its sign.
