@@ -123,10 +123,22 @@ impl<T: Real> PointToPoint<'_, T> {
         Some(())
     }
 
-    /// [`quintic()`] at a time.
+    /// [`quintic()`] of a joint with these initial and final rates.
     #[inline(always)]
-    fn quintic_at(&self, time: T) -> QuinticAt<T> {
-        QuinticAt::new(self.duration, normalized_time(time, self.duration))
+    fn quintic(&self, joint: usize, rates: [T; 2], time: T) -> Option<DesiredJoint<T>> {
+        Some(quintic(self.angles(joint)?, rates, self.duration, normalized_time(time, self.duration)))
+    }
+
+    /// [`quintic()`] of the first joints, each with its initial and final rates.
+    #[inline(always)]
+    fn each_quintic<J>(
+        &self,
+        time: T,
+        joints: impl ExactSizeIterator<Item = (J, [T; 2])>,
+        mut follow: impl FnMut(J, DesiredJoint<T>),
+    ) -> Option<()> {
+        let at = QuinticAt::new(self.duration, normalized_time(time, self.duration));
+        self.each_joint(joints, |(joint, rates), angles| follow(joint, at.joint(angles, rates)))
     }
 }
 

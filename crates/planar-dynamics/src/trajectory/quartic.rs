@@ -24,8 +24,7 @@ pub struct Quartic<'a, T> {
 impl<T: Real> Trajectory<T> for Quartic<'_, T> {
     #[inline(always)]
     fn joint(&self, joint: usize, time: T) -> Option<DesiredJoint<T>> {
-        let rates = [T::ZERO, *self.final_rates.get(joint)?];
-        Some(self.motion.quintic_at(time).joint(self.motion.angles(joint)?, rates))
+        self.motion.quintic(joint, [T::ZERO, *self.final_rates.get(joint)?], time)
     }
 
     #[inline(always)]
@@ -33,13 +32,10 @@ impl<T: Real> Trajectory<T> for Quartic<'_, T> {
         &self,
         time: T,
         joints: impl ExactSizeIterator<Item = J>,
-        mut follow: impl FnMut(J, DesiredJoint<T>),
+        follow: impl FnMut(J, DesiredJoint<T>),
     ) -> Option<()> {
-        let at = self.motion.quintic_at(time);
-        let rates = self.final_rates.get(..joints.len())?;
-        self.motion.each_joint(joints.zip(rates), |(joint, rate), angles| {
-            follow(joint, at.joint(angles, [T::ZERO, *rate]));
-        })
+        let rates = self.final_rates.get(..joints.len())?.iter().map(|rate| [T::ZERO, *rate]);
+        self.motion.each_quintic(time, joints.zip(rates), follow)
     }
 }
 
@@ -64,8 +60,7 @@ pub struct QuarticAsPrinted<'a, T> {
 impl<T: Real> Trajectory<T> for QuarticAsPrinted<'_, T> {
     #[inline(always)]
     fn joint(&self, joint: usize, time: T) -> Option<DesiredJoint<T>> {
-        let rates = [T::ZERO, *self.final_rates.get(joint)? / self.motion.duration];
-        Some(self.motion.quintic_at(time).joint(self.motion.angles(joint)?, rates))
+        self.motion.quintic(joint, [T::ZERO, *self.final_rates.get(joint)? / self.motion.duration], time)
     }
 
     #[inline(always)]
@@ -73,13 +68,10 @@ impl<T: Real> Trajectory<T> for QuarticAsPrinted<'_, T> {
         &self,
         time: T,
         joints: impl ExactSizeIterator<Item = J>,
-        mut follow: impl FnMut(J, DesiredJoint<T>),
+        follow: impl FnMut(J, DesiredJoint<T>),
     ) -> Option<()> {
-        let at = self.motion.quintic_at(time);
-        let rates = self.final_rates.get(..joints.len())?;
-        self.motion.each_joint(joints.zip(rates), |(joint, rate), angles| {
-            follow(joint, at.joint(angles, [T::ZERO, *rate / self.motion.duration]));
-        })
+        let rates = self.final_rates.get(..joints.len())?.iter().map(|rate| [T::ZERO, *rate / self.motion.duration]);
+        self.motion.each_quintic(time, joints.zip(rates), follow)
     }
 }
 

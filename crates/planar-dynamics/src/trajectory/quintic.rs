@@ -23,8 +23,7 @@ pub struct Quintic<'a, T> {
 impl<T: Real> Trajectory<T> for Quintic<'_, T> {
     #[inline]
     fn joint(&self, joint: usize, time: T) -> Option<DesiredJoint<T>> {
-        let rates = [*self.initial_rates.get(joint)?, *self.final_rates.get(joint)?];
-        Some(self.motion.quintic_at(time).joint(self.motion.angles(joint)?, rates))
+        self.motion.quintic(joint, [*self.initial_rates.get(joint)?, *self.final_rates.get(joint)?], time)
     }
 
     #[inline(always)]
@@ -32,13 +31,11 @@ impl<T: Real> Trajectory<T> for Quintic<'_, T> {
         &self,
         time: T,
         joints: impl ExactSizeIterator<Item = J>,
-        mut follow: impl FnMut(J, DesiredJoint<T>),
+        follow: impl FnMut(J, DesiredJoint<T>),
     ) -> Option<()> {
-        let (at, count) = (self.motion.quintic_at(time), joints.len());
+        let count = joints.len();
         let rates = self.initial_rates.get(..count)?.iter().zip(self.final_rates.get(..count)?);
-        self.motion.each_joint(joints.zip(rates), |(joint, (start, end)), angles| {
-            follow(joint, at.joint(angles, [*start, *end]));
-        })
+        self.motion.each_quintic(time, joints.zip(rates.map(|(start, end)| [*start, *end])), follow)
     }
 }
 
