@@ -1,6 +1,6 @@
 //! Joint torques by inverse dynamics with feedback.
 
-use super::{Control, desired, inverse_dynamics};
+use super::{Control, follow, inverse_dynamics};
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::scalar::Real;
@@ -37,10 +37,9 @@ impl<T: Real, M: Model<T> + ?Sized, R: Trajectory<T>> Control<T, M> for Computed
         model.reduced_dynamics(state, self.generalized_inertia, self.generalized_bias, self.generalized_jacobian)?;
         let gains = self.proportional_gain.iter().zip(self.derivative_gain);
         let measured = state.joint_angles.iter().zip(state.joint_rates);
-        let accelerations = gains.zip(measured).enumerate().map(|(joint, ((kp, kv), (angle, rate)))| {
-            let desired = desired(&self.trajectory, joint, time, joints)?;
-            Ok(desired.acceleration + (*kp * (desired.angle - *angle) + *kv * (desired.rate - *rate)))
-        });
-        inverse_dynamics(self.generalized_inertia, self.generalized_bias, accelerations, torques)
+        let mut add = inverse_dynamics(self.generalized_inertia, self.generalized_bias, torques);
+        follow(&self.trajectory, time, gains.zip(measured), |((kp, kv), (angle, rate)), desired| {
+            add(desired.acceleration + (*kp * (desired.angle - *angle) + *kv * (desired.rate - *rate)));
+        })
     }
 }

@@ -1,6 +1,6 @@
 //! Joint torques by inverse dynamics without feedback.
 
-use super::{Control, desired, inverse_dynamics};
+use super::{Control, follow, inverse_dynamics};
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::scalar::Real;
@@ -28,7 +28,7 @@ impl<T: Real, M: Model<T> + ?Sized, R: Trajectory<T>> Control<T, M> for InverseD
         let joints = model.joints();
         length("joint_torques", joints, torques.len())?;
         model.reduced_dynamics(state, self.generalized_inertia, self.generalized_bias, self.generalized_jacobian)?;
-        let accelerations = (0..joints).map(|joint| Ok(desired(&self.trajectory, joint, time, joints)?.acceleration));
-        inverse_dynamics(self.generalized_inertia, self.generalized_bias, accelerations, torques)
+        let mut add = inverse_dynamics(self.generalized_inertia, self.generalized_bias, torques);
+        follow(&self.trajectory, time, 0..joints, |_, desired| add(desired.acceleration))
     }
 }

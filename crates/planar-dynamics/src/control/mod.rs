@@ -203,36 +203,37 @@ impl<T: Real, M: Model<T> + ?Sized> Control<T, M> for ZeroTorque {
     }
 }
 
-/// The desired motion of a joint, or [`Error::Length`] for a trajectory of fewer than `expected` joints.
-#[inline]
-pub(crate) fn desired<T: Real>(
+/// [`Trajectory::each_joint`], or [`Error::Length`] for a trajectory of fewer joints.
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "as the law that calls it")]
+fn follow<T: Real, J>(
     trajectory: &impl Trajectory<T>,
-    joint: usize,
     time: T,
-    expected: usize,
-) -> Result<DesiredJoint<T>, Error> {
-    trajectory.joint(joint, time).ok_or(Error::Length { quantity: "trajectory", expected, found: joint })
+    joints: impl ExactSizeIterator<Item = J>,
+    follow: impl FnMut(J, DesiredJoint<T>),
+) -> Result<(), Error> {
+    let expected = joints.len();
+    trajectory.each_joint(time, joints, follow).ok_or_else(|| missing(trajectory, time, expected))
 }
 
-/// [`Error::Length`] for a trajectory of fewer than `expected` joints.
 #[cold]
 fn missing<T: Real>(trajectory: &impl Trajectory<T>, time: T, expected: usize) -> Error {
     let found = (0..expected).find(|joint| trajectory.joint(*joint, time).is_none()).unwrap_or(expected);
     Error::Length { quantity: "trajectory", expected, found }
 }
 
-/// Eq. (2): `τ = I θ̈ + c`, the torques for these joint accelerations.
-fn inverse_dynamics<T: Real>(
-    generalized_inertia: &[T],
+/// Eq. (2): `τ = I θ̈ + c`, the torques for joint accelerations, which are taken one after the other.
+fn inverse_dynamics<'a, T: Real>(
+    generalized_inertia: &'a [T],
     generalized_bias: &[T],
-    joint_accelerations: impl Iterator<Item = Result<T, Error>>,
-    torques: &mut [T],
-) -> Result<(), Error> {
+    torques: &'a mut [T],
+) -> impl FnMut(T) + 'a {
     copy(generalized_bias, torques);
     // I is symmetric: its rows are its columns
-    let columns = matrix_rows(generalized_inertia, torques.len());
-    for (acceleration, column) in joint_accelerations.zip(columns) {
-        add_scaled(torques, acceleration?, column);
+    let mut columns = matrix_rows(generalized_inertia, torques.len());
+    move |acceleration| {
+        if let Some(column) = columns.next() {
+            add_scaled(torques, acceleration, column);
+        }
     }
-    Ok(())
 }

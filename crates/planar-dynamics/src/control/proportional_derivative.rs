@@ -1,6 +1,6 @@
 //! Proportional-derivative control, eq. (18): joint torques from the errors of joint angles and rates.
 
-use super::{Control, missing};
+use super::{Control, follow};
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::scalar::Real;
@@ -29,10 +29,9 @@ impl<T: Real, M: Model<T> + ?Sized, R: Trajectory<T>> Control<T, M> for Proporti
         length("derivative_gain", expected, self.derivative_gain.len())?;
         let gains = self.proportional_gain.iter().zip(self.derivative_gain);
         let joints = torques.iter_mut().zip(state.joint_angles.iter().zip(state.joint_rates).zip(gains));
-        let followed = self.trajectory.each_joint(time, joints, |(torque, ((angle, rate), (kp, kv))), desired| {
+        follow(&self.trajectory, time, joints, |(torque, ((angle, rate), (kp, kv))), desired| {
             // two signs of eq. (18) exchanged: without a desired rate there is nothing to subtract
             *torque = *kp * (desired.angle - *angle) - *kv * (*rate - desired.rate);
-        });
-        followed.ok_or_else(|| missing(&self.trajectory, time, expected))
+        })
     }
 }

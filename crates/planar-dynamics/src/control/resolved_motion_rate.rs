@@ -173,7 +173,8 @@ impl<T: Real, M: Model<T> + ?Sized> Control<T, M> for ResolvedMotionRate<'_, T> 
         self.singularity_margin = (count > 0).then_some(margin);
         self.is_limited |= count > 0 && margin < self.singularity_threshold;
         let desired = w.joint_accelerations.iter().zip(state.joint_rates);
-        let accelerations = desired.map(|(desired, rate)| Ok(*desired - self.rate_gain * *rate));
-        inverse_dynamics(w.generalized_inertia, w.generalized_bias, accelerations, torques)
+        let mut add = inverse_dynamics(w.generalized_inertia, w.generalized_bias, torques);
+        desired.for_each(|(desired, rate)| add(*desired - self.rate_gain * *rate));
+        Ok(())
     }
 }
