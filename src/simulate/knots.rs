@@ -27,6 +27,11 @@ impl PartialEq for Knots {
 }
 
 impl Knots {
+    /// With memory for so many numbers, as far as they would be in memory.
+    pub(super) fn expecting(numbers: usize) -> Self {
+        Self { in_memory: Vec::with_capacity(numbers.min(MOST_IN_MEMORY)), ..Self::default() }
+    }
+
     /// Adds a knot.
     pub(super) fn push(&mut self, time: f64, state: &[f64]) {
         if self.in_memory.len() > MOST_IN_MEMORY {

@@ -332,9 +332,10 @@ pub(crate) struct PathRecorder {
 }
 
 impl PathRecorder {
-    /// For states whose positions and rates are `2 * size` numbers.
-    pub(crate) fn new(size: usize) -> Self {
-        Self { path: Path { size, ..Path::default() }, times: Vec::new(), states: Vec::new() }
+    /// For states whose positions and rates are `2 * size` numbers, of which so many are expected to be knots.
+    pub(crate) fn new(size: usize, knots: usize) -> Self {
+        let path = Path { knots: Knots::expecting(knots.saturating_mul(record(size))), size };
+        Self { path, times: Vec::new(), states: Vec::new() }
     }
 
     /// Adds a state: positions, then rates.
@@ -386,7 +387,7 @@ mod tests {
     use super::*;
 
     fn record(motion: impl Fn(f64) -> [f64; 2], steps: u32) -> Path {
-        let mut recorder = PathRecorder::new(1);
+        let mut recorder = PathRecorder::new(1, 0);
         for i in 0..=steps {
             let time = f64::from(i) / f64::from(steps);
             recorder.record(time, &motion(time));
@@ -450,7 +451,7 @@ mod tests {
     /// Far from zero, and with another coordinate beside it, a motion has as few knots.
     #[test]
     fn knots_are_as_few_anywhere() {
-        let mut recorder = PathRecorder::new(2);
+        let mut recorder = PathRecorder::new(2, 0);
         for i in 0..=4000 {
             let (sin, cos) = (3.0 * f64::from(i) / 4000.0).sin_cos();
             recorder.record(f64::from(i) / 4000.0, &[1e6 + sin, 2.0, 3.0 * cos, 0.0]);

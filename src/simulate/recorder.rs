@@ -20,6 +20,8 @@ pub(crate) struct Recorder<'a> {
     system: &'a System<'a>,
     audit: ConservationAudit<'a>,
     torques: Vec<f64>,
+    end_effector_poses: Vec<[f64; 3]>,
+    end_effector_twists: Vec<[f64; 3]>,
     samples: SampleList,
     saturation: Saturation,
     /// Which joints are saturated, since when, s.
@@ -43,6 +45,8 @@ impl<'a> Recorder<'a> {
             system,
             audit: ConservationAudit::new(system.model, &start, &system.bodies_at(x)?)?,
             torques: vec![0.0; system.model.joints()],
+            end_effector_poses: vec![[0.0; 3]; system.model.arms()],
+            end_effector_twists: vec![[0.0; 3]; system.model.arms()],
             samples: SampleList::expecting(samples),
             saturation: Saturation::default(),
             saturated: Vec::new(),
@@ -52,7 +56,7 @@ impl<'a> Recorder<'a> {
             singularity_margin: None,
             limit_violations: LimitViolations::default(),
             last: None,
-            path: PathRecorder::new(3 + system.model.joints() + 3 * system.bodies.len()),
+            path: PathRecorder::new(3 + system.model.joints() + 3 * system.bodies.len(), samples),
         })
     }
 
@@ -88,20 +92,19 @@ impl<'a> Recorder<'a> {
         }
         let bodies = self.system.bodies_at(x)?;
         let momentum = self.audit.momentum(&state, &bodies)?;
-        let mut sample = Sample {
+        model.end_effector_poses(&state.base_pose, state.joint_angles, &mut self.end_effector_poses)?;
+        model.end_effector_twists(&state, &mut self.end_effector_twists)?;
+        self.samples.push(Sample {
             time,
             state: RobotState::from_view(&state),
             joint_torques: self.torques.clone(),
-            end_effector_poses: vec![[0.0; 3]; model.arms()],
-            end_effector_twists: vec![[0.0; 3]; model.arms()],
+            end_effector_poses: self.end_effector_poses.clone(),
+            end_effector_twists: self.end_effector_twists.clone(),
             momentum,
             work: ActuatorWork::from_vector(x)?,
             base_torque: control.base_torque().map(|base| base.torque),
             bodies,
-        };
-        model.end_effector_poses(&state.base_pose, state.joint_angles, &mut sample.end_effector_poses)?;
-        model.end_effector_twists(&state, &mut sample.end_effector_twists)?;
-        self.samples.push(sample);
+        });
         Ok(())
     }
 

@@ -21,6 +21,7 @@
 
 use crate::simulate::Sample;
 use crate::simulate::sample_file::{SampleFile, SampleWriter};
+use std::mem;
 
 /// The largest number of samples of a phase in memory, up to a contact or its end. Figures and the report show these.
 pub const MOST_IN_MEMORY: usize = 10_000;
@@ -31,15 +32,15 @@ const MOST_EXPECTED: usize = 1 << 10;
 /// The samples so far.
 #[derive(Debug, Default)]
 pub(crate) struct SampleList {
+    /// The latest, which may yet be discarded, is the last of them.
     in_memory: Vec<Sample>,
+    has_latest: bool,
     /// The first of so many samples is kept in memory, less one.
     skipped: usize,
-    /// All samples so far; the last of them where it is not in memory.
+    /// All samples before the latest; the last of these where it is not in memory.
     count: usize,
     last: Option<Sample>,
     file: Option<SampleWriter>,
-    /// The latest, which may yet be discarded.
-    latest: Option<Sample>,
 }
 
 impl SampleList {
@@ -50,35 +51,38 @@ impl SampleList {
 
     /// Adds a sample.
     pub(crate) fn push(&mut self, sample: Sample) {
-        if let Some(before) = self.latest.replace(sample) {
-            self.keep(before);
-        }
+        self.keep_latest();
+        self.in_memory.push(sample);
+        self.has_latest = true;
     }
 
     /// Discards the latest sample where it is at this time, s, or later, and not the first.
     pub(crate) fn discard_from(&mut self, time: f64) {
-        self.latest.take_if(|latest| self.count > 0 && latest.time >= time);
+        let is_to_go = |latest: &mut Sample| latest.time >= time;
+        if self.has_latest && self.count > 0 && self.in_memory.pop_if(is_to_go).is_some() {
+            self.has_latest = false;
+        }
     }
 
-    fn keep(&mut self, sample: Sample) {
-        if self.in_memory.len() == MOST_IN_MEMORY {
+    /// The latest is to stay: in memory, or as the last one.
+    fn keep_latest(&mut self) {
+        if !mem::take(&mut self.has_latest) {
+            return;
+        }
+        if self.in_memory.len() > MOST_IN_MEMORY {
             self.thin();
         }
-        if let Some(file) = &mut self.file {
-            file.push(&sample, &[]);
+        if let (Some(file), Some(latest)) = (&mut self.file, self.in_memory.last()) {
+            file.push(latest, &[]);
         }
-        let keep = self.count.is_multiple_of(self.skipped + 1);
+        let stays = self.count.is_multiple_of(self.skipped + 1);
+        self.last = if stays { None } else { self.in_memory.pop() };
         self.count += 1;
-        if keep {
-            self.in_memory.push(sample);
-            self.last = None;
-        } else {
-            self.last = Some(sample);
-        }
     }
 
-    /// Keeps every other sample in memory, and from now on half as many.
+    /// Keeps every other sample in memory before the latest, and from now on half as many.
     fn thin(&mut self) {
+        let latest = self.in_memory.pop();
         if self.file.is_none() {
             let mut file = SampleWriter::new(&self.in_memory[0], &[]);
             self.in_memory.iter().for_each(|sample| file.push(sample, &[]));
@@ -89,14 +93,13 @@ impl SampleList {
             i += 1;
             i % 2 == 1
         });
+        self.in_memory.extend(latest);
         self.skipped = 2 * self.skipped + 1;
     }
 
     /// The samples in memory, with the first and the last, and the file of all where these are not all.
     pub(crate) fn end(mut self) -> (Vec<Sample>, Option<SampleFile>) {
-        if let Some(latest) = self.latest.take() {
-            self.keep(latest);
-        }
+        self.keep_latest();
         let Self { mut in_memory, last, file, .. } = self;
         in_memory.extend(last);
         (in_memory, file.map(SampleWriter::finish))

@@ -147,7 +147,7 @@ impl Motion {
     }
 
     fn path(&self, start: f64, duration: f64) -> Path {
-        let mut recorder = PathRecorder::new(7);
+        let mut recorder = PathRecorder::new(7, 0);
         for i in 0..=self.intervals {
             let time = duration * f64::from(i) / f64::from(self.intervals);
             recorder.record(time, &self.robot(start + time).1);

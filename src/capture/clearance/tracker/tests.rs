@@ -25,7 +25,7 @@ fn least_distance(knots: &[[f64; 2]]) -> f64 {
     let pair = |bodies| BodyPair { bodies, contact: None, group: 0 };
     let pairs = vec![pair([0, 1]), pair([1, 2])];
     let mut tracker = DistanceTracker::new(frames, (0..3).map(disc).collect(), pairs, u64::MAX);
-    let mut path = PathRecorder::new(3);
+    let mut path = PathRecorder::new(3, 0);
     let mut time = 0.0;
     for [distance, rate] in knots {
         path.record(time, &[0.0, 1.0 + distance, 0.0, 0.0, *rate, 0.0]);
@@ -61,7 +61,7 @@ fn an_arm_overlaps_with_what_another_one_holds() {
         let pairs = vec![BodyPair { bodies: [0, 1], contact: Some((1, 0)), group: 0 }];
         let frames = [FrameMotion::Base, FrameMotion::Target(0)].map(frame).to_vec();
         let mut tracker = DistanceTracker::new(frames, (0..2).map(disc).collect(), pairs, u64::MAX);
-        let mut path = PathRecorder::new(3);
+        let mut path = PathRecorder::new(3, 0);
         for time in [0.0, 1.0] {
             path.record(time, &[0.0; 6]);
         }
