@@ -41,20 +41,20 @@ impl Measured {
 
 /// Builds all, with what interpreters have, then lets each measure once per round.
 pub fn run(rounds: usize, interpreters: Interpreters<'_>) -> Result<Vec<Measured>, Problem> {
+    let target = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/engines");
+    let input = target.join("input.txt").display().to_string();
+    std::fs::create_dir_all(&target)?;
+    // before the builds, which take minutes: what is missing here is said at once
+    let engines = interpreters.reference.map(|python| engines::compile(python, &target)).transpose()?;
     let mut programs = Vec::new();
     for (name, flags, fused) in BUILDS {
         programs.push((name, build(name, flags, fused)?, vec!["measure".to_owned()]));
     }
-    let target = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/engines");
-    let input = target.join("input.txt").display().to_string();
     if let Some((_, program, _)) = programs.first() {
-        std::fs::create_dir_all(&target)?;
         engines::output(Command::new(program).args(["input", &input]))?;
     }
-    if let Some(python) = interpreters.reference {
-        let compiled = engines::compile(python, &target)?;
-        programs.extend(ENGINES.into_iter().zip(compiled).map(|(name, program)| (name, program, vec![input.clone()])));
-    }
+    let engines = ENGINES.into_iter().zip(engines.into_iter().flatten());
+    programs.extend(engines.map(|(name, program)| (name, program, vec![input.clone()])));
     if let Some(python) = interpreters.package {
         let script = engines::folder().join("arrays.py").display().to_string();
         programs.push((PACKAGE, python.into(), vec![script, input]));

@@ -122,11 +122,6 @@ fn blocks<T: Number, K: Kernel>(kernel: &mut K, statuses: &mut [Status]) {
 #[cold]
 #[inline(never)]
 fn one_by_one<K: Kernel>(kernel: &mut K, statuses: &mut [Status]) {
-    if !kernel.is_finite() {
-        // as the functions for one state say, whatever else there is
-        statuses.iter_mut().filter(|status| **status != Status::Done).for_each(|status| *status = Status::NotFinite);
-        return;
-    }
     let (model, columns) = (kernel.model::<f64>(), statuses.len());
     for from in 0..columns {
         match statuses.get_mut(from) {
@@ -134,5 +129,9 @@ fn one_by_one<K: Kernel>(kernel: &mut K, statuses: &mut [Status]) {
             _ => continue,
         }
         kernel.evaluate::<f64, 1>(&model, Place { from, len: 1, columns }, statuses);
+    }
+    if !kernel.is_finite() {
+        // as the functions for one state say, whatever else there is
+        statuses.iter_mut().filter(|status| **status != Status::Done).for_each(|status| *status = Status::NotFinite);
     }
 }

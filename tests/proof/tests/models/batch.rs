@@ -270,9 +270,15 @@ fn every_instruction_set_gives_the_same() {
 
 #[test]
 fn robots_with_a_number_that_is_not_finite_have_no_result() {
-    for base_inertia in [f64::NAN, f64::INFINITY] {
-        let parameters = dual_arm_3r::Parameters { base_inertia, ..dual_arm_3r::Parameters::default() };
-        check::<Detected, _>(&dual_arm_3r::Model::<f64>::new(parameters), 65);
+    let numbers = dual_arm_3r::Parameters::<f64>::default().to_array();
+    for index in 0..numbers.len() {
+        // of a negative infinity a pivot is negative, as that of a singular robot
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let mut numbers = numbers;
+            numbers[index] = value;
+            let parameters = dual_arm_3r::Parameters::from_array(numbers);
+            check::<Detected, _>(&dual_arm_3r::Model::<f64>::new(parameters), 65);
+        }
     }
 }
 
