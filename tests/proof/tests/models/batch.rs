@@ -269,7 +269,7 @@ fn every_instruction_set_gives_the_same() {
 }
 
 #[test]
-fn robots_with_a_number_that_is_not_finite_have_no_result() {
+fn robots_with_a_number_that_is_not_finite_are_as_the_model_says() {
     let numbers = dual_arm_3r::Parameters::<f64>::default().to_array();
     for index in 0..numbers.len() {
         // of a negative infinity a pivot is negative, as that of a singular robot
