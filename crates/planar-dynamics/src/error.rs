@@ -10,7 +10,7 @@
 //! let mut end_effectors = |angles: &[f64]| Kinematics::end_effector_poses(&robot, &[0.0; 3], angles, &mut poses);
 //! let error = end_effectors(&[0.5; 5]).expect_err("an angle is missing");
 //! assert_eq!(error, Error::Length { quantity: "joint_angles", expected: 6, found: 5 });
-//! assert_eq!(error.to_string(), "joint_angles has 5 values, the model has 6");
+//! assert_eq!(error.to_string(), "joint_angles has 5 values, expected 6");
 //! let error = end_effectors(&[0.5, 0.5, f64::INFINITY, 0.5, 0.5, 0.5]).expect_err("an angle is infinite");
 //! assert_eq!(error.to_string(), "joint_angles[2] = inf is not a finite number");
 //! ```
@@ -32,11 +32,11 @@ impl Display for PivotText {
 #[non_exhaustive]
 pub enum Error {
     /// A slice of the wrong length.
-    #[error("{quantity} has {found} values, the model has {expected}")]
+    #[error("{quantity} has {found} values, expected {expected}")]
     Length {
         /// What the slice holds.
         quantity: &'static str,
-        /// The model's number.
+        /// That of the model, or of the other slices.
         expected: usize,
         /// The slice's number.
         found: usize,

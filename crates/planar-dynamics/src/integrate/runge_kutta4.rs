@@ -74,6 +74,35 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
     ///
     /// # Errors
     /// As [`step`](Self::step): of the robot's numbers. Work and free bodies are not looked at.
+    ///
+    /// # Example
+    /// ```
+    /// use planar_capture::generated::dual_arm_3r::{JOINTS, Model};
+    /// use planar_dynamics::control::ProportionalDerivative;
+    /// use planar_dynamics::dynamics::MomentumAndEnergy;
+    /// use planar_dynamics::integrate::RungeKutta4;
+    /// use planar_dynamics::state::{State, vector_length};
+    /// use planar_dynamics::trajectory::{PointToPoint, Quartic};
+    ///
+    /// const LENGTH: usize = vector_length(JOINTS);
+    /// let robot = Model::<f64>::default();
+    /// let motion = PointToPoint { initial_angles: &[0.0; JOINTS], final_angles: &[0.1; JOINTS], duration: 1.0 };
+    /// let trajectory = Quartic { motion, final_rates: &[0.0; JOINTS] };
+    /// let (proportional_gain, derivative_gain) = (&[400.0; JOINTS], &[200.0; JOINTS]);
+    /// let mut law = ProportionalDerivative { trajectory, proportional_gain, derivative_gain };
+    /// // at rest, all angles 0
+    /// let (mut x, mut torques) = ([0.0; LENGTH], [0.0; JOINTS]);
+    /// let mut workspace = [0.0; RungeKutta4::<f64>::WORKSPACE * LENGTH];
+    /// let mut integrator = RungeKutta4::new(&mut workspace)?;
+    /// for step in 0..1000 {
+    ///     integrator.robot_step(&robot, &mut law, f64::from(step) * 1e-3, 1e-3, &mut x, &mut torques)?;
+    /// }
+    /// let end = State::from_vector(&x, JOINTS)?;
+    /// assert!(end.joint_angles.iter().all(|angle| (angle - 0.1).abs() < 0.02), "{:?}", end.joint_angles);
+    /// // no force acts on the robot: its momentum is that of the start
+    /// assert!(MomentumAndEnergy::momentum(&robot, &end)?.angular_momentum.abs() < 1e-9);
+    /// # Ok::<(), planar_dynamics::error::Error>(())
+    /// ```
     #[cfg_attr(target_arch = "arm", inline)]
     #[cfg_attr(not(target_arch = "arm"), inline(always))]
     #[allow(clippy::inline_always, reason = "the caller knows the lengths")]

@@ -49,8 +49,52 @@ pub trait Trajectory<T> {
     /// The desired motion of `joint` at `time` (s); `None` for a joint that the trajectory does not have.
     fn joint(&self, joint: usize, time: T) -> Option<DesiredJoint<T>>;
 
-    /// Hands each of these joints, the first ones of the robot, to `follow` with its desired motion at `time` (s); `None` where the
-    /// trajectory has fewer, which may have been handed on. What the joints have in common a trajectory may compute once.
+    /// Calls `follow` with each item of `joints` and the desired motion of its joint at `time` (s): the first item is the first joint's,
+    /// a torque to be filled, for example. `None` where the trajectory has fewer joints, for which `follow` may have been called.
+    /// A trajectory of one's own need not have this function; with it, it may compute once what its joints have in common.
+    ///
+    /// # Example
+    /// ```
+    /// use planar_dynamics::trajectory::{DesiredJoint, Trajectory};
+    ///
+    /// /// All joints swing together.
+    /// struct Swing {
+    ///     amplitudes: [f64; 2],
+    ///     frequency: f64,
+    /// }
+    ///
+    /// impl Swing {
+    ///     /// The motion of a joint by its amplitude.
+    ///     fn at(&self, time: f64) -> impl Fn(f64) -> DesiredJoint<f64> {
+    ///         let omega = self.frequency;
+    ///         let (sin, cos) = (omega * time).sin_cos();
+    ///         move |a| DesiredJoint { angle: a * sin, rate: a * omega * cos, acceleration: -a * omega * omega * sin }
+    ///     }
+    /// }
+    ///
+    /// impl Trajectory<f64> for Swing {
+    ///     fn joint(&self, joint: usize, time: f64) -> Option<DesiredJoint<f64>> {
+    ///         Some(self.at(time)(*self.amplitudes.get(joint)?))
+    ///     }
+    ///
+    ///     // one sine for all joints
+    ///     fn each_joint<J>(
+    ///         &self,
+    ///         time: f64,
+    ///         joints: impl ExactSizeIterator<Item = J>,
+    ///         mut follow: impl FnMut(J, DesiredJoint<f64>),
+    ///     ) -> Option<()> {
+    ///         let (at, amplitudes) = (self.at(time), self.amplitudes.get(..joints.len())?);
+    ///         joints.zip(amplitudes).for_each(|(joint, amplitude)| follow(joint, at(*amplitude)));
+    ///         Some(())
+    ///     }
+    /// }
+    ///
+    /// let swing = Swing { amplitudes: [0.1, 0.2], frequency: 2.0 };
+    /// let mut angles = [0.0; 2];
+    /// swing.each_joint(0.3, angles.iter_mut(), |angle, desired| *angle = desired.angle).expect("two joints");
+    /// assert_eq!(angles, [0, 1].map(|joint| swing.joint(joint, 0.3).expect("a joint").angle));
+    /// ```
     #[inline(always)]
     fn each_joint<J>(
         &self,
