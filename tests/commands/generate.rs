@@ -256,6 +256,36 @@ fn a_robot_beyond_single_precision_is_for_double_precision_alone() {
     assert!(code == 0 && !err.contains(wanted), "{code}: {err}");
 }
 
+/// The option is in the module's header, and part of what `--check` compares; the arithmetic of pairs is that of modules which build
+/// scripts render, with the same bits.
+#[test]
+fn pairs_are_for_modules_that_use_the_core() {
+    for arguments in [
+        &["dual_arm_2r", "--pairs", "--standalone", "--out", "robot.rs"][..],
+        &["dual_arm_2r", "--pairs", "--out", "dual_arm_2r.json"],
+        &["dual_arm_2r", "--pairs", "--language", "c", "--out", "robot.c"],
+        &["dual_arm_2r", "--pairs", "--fmu", "--out", "robot.fmu"],
+    ] {
+        let folder = folder();
+        let (code, out, err) = outcome(generate(folder.path(), arguments));
+        assert!(code == 2 && out.is_empty() && err.contains("--pairs is for a module in Rust"), "{arguments:?}: {err}");
+        assert!(!folder.path().join(arguments[arguments.len() - 1]).exists(), "{arguments:?}");
+    }
+    if without_python() {
+        return;
+    }
+    let folder = folder();
+    let with = ["dual_arm_2r", "--out", "robot.rs", "--pairs"];
+    let (code, _, err) = outcome(generate(folder.path(), &with));
+    assert_eq!(code, 0, "{err}");
+    let text = fs::read_to_string(folder.path().join("robot.rs")).expect("written");
+    assert!(text.contains("Pair::new(") && text.contains(" dual_arm_2r --out robot.rs --pairs\n"), "{text:.900}");
+    let check = |arguments: &[&str]| outcome(generate(folder.path(), &[arguments, &["--check"]].concat()));
+    assert_eq!(check(&with).0, 0);
+    let (code, _, err) = check(&with[..3]);
+    assert!(code == 1 && err.starts_with("robot.rs is not what the layout gives"), "{err}");
+}
+
 /// Source and header are written, named in messages, found stale, and not written over what was not generated.
 #[test]
 fn a_module_in_c_has_a_header() {

@@ -50,6 +50,10 @@ pub struct Arguments {
     /// A module without dependencies, not even on planar-capture's core.
     #[arg(long)]
     standalone: bool,
+    /// Compute arms of as many links in pairs: for processors with vectors (x86-64, aarch64), the same bits in less time.
+    /// Build scripts that render the graph choose this by their target.
+    #[arg(long)]
+    pairs: bool,
     /// Matrices of derivatives, too: of forward dynamics by position, velocity and forces, and of impacts by position,
     /// velocity, contacts and target twists; or of one of them, `=forward_dynamics` or `=impact`.
     #[arg(long, value_name = "NAME,...", value_delimiter = ',', num_args = 0..=1, require_equals = true)]
@@ -120,7 +124,7 @@ impl Arguments {
     /// All that says what is generated.
     fn options(&self) -> Vec<String> {
         let language = (self.language == Language::C).then_some(["--language", "c"].map(str::to_owned));
-        let flags = [(self.standalone, "--standalone"), (self.fmu, "--fmu")];
+        let flags = [(self.standalone, "--standalone"), (self.pairs, "--pairs"), (self.fmu, "--fmu")];
         let flags = flags.into_iter().filter(|(is_set, _)| *is_set).map(|(_, flag)| flag.to_owned());
         language.into_iter().flatten().chain(flags).chain(self.derivatives()).collect()
     }
@@ -130,6 +134,10 @@ impl Arguments {
         fmu::check(self)?;
         let usage = |message: String| Err(CommandError::Usage(message));
         let path = self.out.display();
+        if self.pairs && (self.standalone || self.language != Language::Rust || !has_extension(&self.out, "rs")) {
+            let module = "a module in Rust that uses planar-capture (FILE.rs, without --standalone)";
+            return usage(format!("--pairs is for {module}: leave it out"));
+        }
         match (self.language, self.out.extension().and_then(|extension| extension.to_str())) {
             (Language::C, Some("c")) if self.standalone => {
                 usage("--standalone is for a module in Rust: leave it out, one in C has no dependencies".to_owned())
@@ -218,7 +226,7 @@ fn modules(graph: &Graph, layout: &Layout, arguments: &Arguments) -> Result<Vec<
             let module = Module {
                 standalone,
                 item: false,
-                arithmetic: Arithmetic::default(),
+                arithmetic: Arithmetic { is_paired: arguments.pairs, ..Arithmetic::default() },
                 source: &source,
                 command: &command,
             };
