@@ -33,6 +33,7 @@ Examples:
 /// later ones use it. The derived functions are compared with the generic implementation before a file is written.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
+#[allow(clippy::struct_excessive_bools, reason = "each is an option of its own")]
 pub struct Arguments {
     /// The layout: a path, or the name of a shipped one.
     layout: String,
