@@ -372,8 +372,8 @@ LTO, C with `-O2 -ffp-contract=off`.
   of the caller, three vectors of the state, which the example keeps with the state: 252 bytes in `f32`, 504 in `f64`.
 - **Inputs that have no result.** The `smallest_pivot` of a module's functions is not a number where an input or a
   parameter that a result depends on is infinite or none, or a mass or moment of inertia is 0. The traits of the
-  library, steps, merging and impulses have an error or a status, and so has C: `NAME_model_new` refuses such a robot, and
-  one with a mass or moment of inertia below 0, which the library looks for in layouts alone.
+  library, steps, merging and impulses have an error or a status, and so has C: `NAME_model_new` refuses such a robot,
+  and one with a mass or moment of inertia below 0, which the library looks for in layouts alone.
 - **No panic** is proved by the linker: a program with all functions, library and module, links although its panic
   handler calls a function that does not exist. The same for every part of the core (`tests/no_std`). At opt-level 3 and
   s, and z by `--all`; at 3 also with overflow checks, for all but the self test.
@@ -381,9 +381,9 @@ LTO, C with `-O2 -ffp-contract=off`.
   none in its code."""
 
 OVER = "**Bold** numbers are over their budgets. They may not grow: `examples/firmware/bounds.json`."
-WITHIN = """Budgets are those of library and module for the paper's robot at opt-level 3, with angles that are not far ones, and their
-numbers are within them: one that is over fails the gate. C, other layouts and other profiles have none; C exceeds some of these:
-`examples/firmware/bounds.json`."""
+WITHIN = """Budgets are those of library and module for the paper's robot at opt-level 3, with angles that are not far
+ones, and their numbers are within them: one that is over fails the gate. C, other layouts and other profiles have
+none; C exceeds some of these: `examples/firmware/bounds.json`."""
 
 
 def main():
