@@ -1,7 +1,7 @@
 //! Sine and cosine together, with `core` alone: the same bits on every target, and inlined.
 //!
-//! The angle is reduced to ±π/4 by subtracting a multiple of π/2 in three parts (Cody & Waite 1980), whose products with
-//! the multiple are exact, or far from 0 in integers; two polynomials follow. There is no branch but that for far angles,
+//! The angle is reduced to ±π/4 by subtracting a multiple of π/2 in two parts (Cody & Waite 1980), or far from 0 in integers; two
+//! polynomials follow. There is no branch but that for far angles,
 //! which are out of line altogether, so that nothing is prepared for them.
 
 use super::far_angle::{reduce_f32, reduce_f64};
@@ -10,8 +10,9 @@ use super::number::Scalar;
 /// What reduction and polynomials of a scalar consist of.
 #[derive(Debug)]
 pub struct Coefficients<F, const S: usize, const C: usize> {
-    /// π/2 in three parts, the first two exact when multiplied by the quarter turns of the furthest angle.
-    pub quarter_turn: [F; 3],
+    /// π/2 in two parts. The product of the first with the quarter turns of the furthest angle is exact; that of the second, which is
+    /// small, is rounded, by less than the angle is.
+    pub quarter_turn: [F; 2],
     /// The largest angle that is reduced in line, rad.
     pub furthest: F,
     /// Adding it leaves the nearest integer in the last bits of the mantissa.
@@ -22,9 +23,9 @@ pub struct Coefficients<F, const S: usize, const C: usize> {
     pub cosine: [F; C],
 }
 
-/// 33 bits up to 2²⁰; minimax on ±π/4, error below 2⁻⁵⁷; coefficients of Sun's FDLIBM (1993).
+/// 33 bits and 53 up to 2²⁰, error below 2⁻⁶⁵; minimax on ±π/4, error below 2⁻⁵⁷; coefficients of Sun's FDLIBM (1993).
 pub const DOUBLE: Coefficients<f64, 6, 6> = Coefficients {
-    quarter_turn: [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_795_950_6e-21],
+    quarter_turn: [1.570_796_326_734_125_6, 6.077_100_506_506_192e-11],
     furthest: 1_048_576.0 * 1.570_796_326_734_125_6,
     round: 6_755_399_441_055_744.0,
     sine: [
@@ -45,10 +46,10 @@ pub const DOUBLE: Coefficients<f64, 6, 6> = Coefficients {
     ],
 };
 
-/// Up to 2¹²; minimax on ±π/4, error below 2⁻²⁶; coefficients of Moshier's Cephes (1992).
+/// 12 bits and 24 up to 2¹², error below 2⁻²⁹; minimax on ±π/4, error below 2⁻²⁶; coefficients of Moshier's Cephes (1992).
 pub const SINGLE: Coefficients<f32, 3, 3> = Coefficients {
-    quarter_turn: [1.570_312_5, 4.837_513e-4, 7.549_79e-8],
-    furthest: 4096.0 * 1.570_312_5,
+    quarter_turn: [1.570_800_8, -4.454_455e-6],
+    furthest: 4096.0 * 1.570_800_8,
     round: 12_582_912.0,
     sine: [-1.666_665_5e-1, 8.332_161e-3, -1.951_529_6e-4],
     cosine: [4.166_664_6e-2, -1.388_731_6e-3, 2.443_315_7e-5],
@@ -78,11 +79,13 @@ fn turned_f64(x: f64, quadrant: u64) -> (f64, f64) {
 #[allow(clippy::inline_always, reason = "in vectors, what is not inlined has the instruction set of the build")]
 #[inline(always)]
 pub fn exchanged_f64(sine: f64, cosine: f64, quadrant: u64) -> (f64, f64) {
+    const SIGN: u64 = 1 << 63;
     let (sine, cosine) = (sine.to_bits(), cosine.to_bits());
     let exchange = (sine ^ cosine) & (quadrant & 1).wrapping_neg();
-    let sign = |quadrant: u64| (quadrant & 2) << 62;
-    let sine = sine ^ exchange ^ sign(quadrant);
-    let cosine = cosine ^ exchange ^ sign(quadrant.wrapping_add(1));
+    // the second of its last bits where the sign of a number is
+    let turned = quadrant << 62;
+    let sine = sine ^ exchange ^ (turned & SIGN);
+    let cosine = cosine ^ exchange ^ (turned.wrapping_add(1 << 62) & SIGN);
     (f64::from_bits(sine), f64::from_bits(cosine))
 }
 
@@ -149,8 +152,8 @@ macro_rules! sines {
             fn reduce_near(angle: $float) -> ($float, $bits) {
                 let shifted = angle * core::$float::consts::FRAC_2_PI + K.round;
                 let quarters = shifted - K.round;
-                let [a, b, c] = K.quarter_turn;
-                (((angle - quarters * a) - quarters * b) - quarters * c, shifted.to_bits())
+                let [a, b] = K.quarter_turn;
+                ((angle - quarters * a) - quarters * b, shifted.to_bits())
             }
 
             /// Of an angle that is not far from 0.

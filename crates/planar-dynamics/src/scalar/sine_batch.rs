@@ -6,7 +6,7 @@
 
 use super::portable;
 use super::sine::double::{any_sum, terms};
-use super::sine_lanes::near_f64x4;
+use super::sine_lanes::{NearF64x4, near_f64x4};
 use core::array::from_fn;
 use wide::f64x4;
 
@@ -69,8 +69,15 @@ fn of_some<const N: usize>(angles: &[f64; N], from: usize, terms: impl Fn() -> f
 /// Two vectors at once, whose operations fill each other's waiting times.
 #[inline(always)]
 fn eight(first: [f64; 4], second: [f64; 4], terms: impl Fn() -> f64) -> Pairs {
-    let (mut sines, is_far) = near_f64x4(first.into());
-    let (mut next_sines, is_further) = near_f64x4(second.into());
+    let (mut near, is_far) = NearF64x4::new(first.into());
+    let (mut next, is_further) = NearF64x4::new(second.into());
+    near.add(NearF64x4::TERMS[0]);
+    next.add(NearF64x4::TERMS[0]);
+    for terms in NearF64x4::next_terms::<2>() {
+        near.add(*terms);
+        next.add(*terms);
+    }
+    let (mut sines, mut next_sines) = (near.pair(), next.pair());
     if (is_far | is_further).any() {
         (sines, next_sines) = (far(first, terms()), far(second, terms()));
     }
