@@ -17,6 +17,8 @@ builds take turns. CasADi's C code is that of the same formulation with the robo
 -march=native`; generated code takes its numbers at run time. All results agree to 1e-11 before anything is measured. Times
 depend on the machine: compare ratios.
 
+SUMMARY
+
 Single calls of both sides read the same records, one of 248 bytes per state, in order: 64 of them, time and again, or 16,384, which
 are 4 MB. C is slower on the latter, probably because the sines of the C library branch by the angle, which a processor predicts for
 angles that it has just seen; generated sines have no such branch.
@@ -135,7 +137,7 @@ const LIMIT: &str = "
 ## The limit
 
 Products and sums of independent numbers that are in registers, fused, in this run: PEAK·10⁹ operations a second (build native,
-fused). Operations are the sums, products and divisions that a call makes, by a scalar that counts them, 37 of them for a sine with its
+fused). Operations are the sums, products and divisions that a call makes, by a scalar that counts them, 35 of them for a sine with its
 cosine; a module's manifest has those of its statements, which can be fewer. In brackets is
 how many times as long an evaluation takes as these at the peak. A division is not as fast as a product, not every product meets a sum, and
 exchanges of signs and quadrants are not counted. One by one, operations wait for each other, and a sum of scalars takes as long as one
@@ -202,7 +204,7 @@ pub fn write(measured: &[Measured]) -> Result<(), Problem> {
 fn markdown(all: &[Measured]) -> Result<String, Problem> {
     let (measured, others) = all.split_at(BUILDS.len());
     let c = |name: &str| of_c(measured, &format!("C, {name}"));
-    let mut text = HEAD.to_owned();
+    let mut text = HEAD.replace("SUMMARY", &summary(measured, others)?);
     let flags = BUILDS.map(|(name, flags, _)| format!("{name} `{flags}`").replace(" ``", " none"));
     writeln!(text, "Measured on: {}. `RUSTFLAGS`: {}.\n", machine().join("; "), flags.join(", "))?;
     text += "## Against CasADi's C\n\nRatio to the time of C; in brackets ns. C has the same flags in all builds: its time is the least of their medians.
@@ -274,6 +276,33 @@ one. It is there for processors that have `f32` alone, and as lanes.\n\n| |";
             write!(text, " {:.0} |", generic / generated)?;
         }
         text += "\n";
+    }
+    Ok(text)
+}
+
+/// What matters most, in a sentence or two.
+fn summary(measured: &[Measured], others: &[Measured]) -> Result<String, Problem> {
+    let ends = [measured.first(), measured.last()].map(|build| build.ok_or("no build"));
+    let ([default, best], base) = ([ends[0]?, ends[1]?], of_c(measured, "C, forward dynamics")?);
+    let ratio = |build: &Measured, name: &str| {
+        let time = build.median(&format!("{name}, forward dynamics")).ok_or(format!("no time of {name}"))?;
+        Ok::<_, Problem>(time / base)
+    };
+    let mut text = format!(
+        "**In short:** forward dynamics of one state takes {:.2} of the time of CasADi's C in a default build, and {:.2} in one for this
+processor with fused products; in batches {:.2} and {:.2}.",
+        ratio(default, "f64")?,
+        ratio(best, "f64")?,
+        ratio(default, "batch")?,
+        ratio(best, "batch")?
+    );
+    let times = ENGINES.iter().filter_map(|engine| {
+        let other = others.iter().find(|other| other.build == *engine)?.median("forward dynamics")?;
+        Some(format!("{engine} {:.1}", other / base))
+    });
+    let times: Vec<_> = times.collect();
+    if !times.is_empty() {
+        write!(text, " As many times that of C: {}.", times.join(", "))?;
     }
     Ok(text)
 }
