@@ -46,7 +46,8 @@ impl<const FUSED: bool> Number for Lane<FUSED> {
     }
 }
 
-/// The best instruction set of the processor that the program runs on: AVX-512, AVX2 with FMA, or that of the build.
+/// The best instruction set of the processor that the program runs on: AVX-512 (from Ice Lake and Zen 4 on: before, clocks were
+/// lowered for it, and the crate `multiversion` leaves it out), AVX2 with FMA, or that of the build.
 #[derive(Clone, Copy, Debug)]
 pub struct Detected;
 

@@ -6,7 +6,8 @@ use multiversion::multiversion;
 /// The instructions that a batch is computed with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum InstructionSet {
-    /// The best of the processor that the program runs on: AVX-512, AVX2 with FMA, or those of the build.
+    /// The best of the processor that the program runs on: AVX-512 (from Ice Lake and Zen 4 on: before, clocks were lowered for it), AVX2
+    /// with FMA, or those of the build.
     #[default]
     Detected,
     /// AVX2 with FMA at most; for tests and comparisons.
