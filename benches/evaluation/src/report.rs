@@ -298,11 +298,11 @@ processor with fused products; in batches {:.2} and {:.2}.",
     );
     let times = ENGINES.iter().filter_map(|engine| {
         let other = others.iter().find(|other| other.build == *engine)?.median("forward dynamics")?;
-        Some(format!("{engine} {:.1}", other / base))
+        Some(format!("{engine} takes {:.1} times that of C", other / base))
     });
     let times: Vec<_> = times.collect();
     if !times.is_empty() {
-        write!(text, " As many times that of C: {}.", times.join(", "))?;
+        write!(text, " {}.", times.join(", "))?;
     }
     Ok(text)
 }
