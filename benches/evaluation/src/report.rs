@@ -99,8 +99,8 @@ const BOUNDS: &str = "
 ## Bounds
 
 The ratio of this run, and the largest that is meant to be; **bold** where it is above. The bounds of `f64x8` and of batches are for
-processors with AVX-512, which batches take from Ice Lake and Zen 4 on. The step of the first rows is the loop by hand: where evaluations in its text do not suit a processor, called ones
-are faster, and so is the library's step, whose ratio is then below 1.
+processors with AVX-512, which batches take from Ice Lake and Zen 4 on. The step of the first rows is the loop by hand: where
+evaluations in its text do not suit a processor, called ones are faster, and so is the library's step, whose ratio is then below 1.
 
 | | default x86-64 | native, fused |
 |---|---|---|

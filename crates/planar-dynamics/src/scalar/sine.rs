@@ -1,8 +1,8 @@
 //! Sine and cosine together, with `core` alone: the same bits on every target, and inlined.
 //!
 //! The angle is reduced to ±π/4 by subtracting a multiple of π/2 in two parts (Cody & Waite 1980), or far from 0 in integers; two
-//! polynomials follow. There is no branch but that for far angles,
-//! which are out of line altogether, so that nothing is prepared for them.
+//! polynomials follow. There is no branch but that for far angles, which are out of line altogether, so that nothing is prepared
+//! for them.
 
 use super::far_angle::{reduce_f32, reduce_f64};
 use super::number::Scalar;
