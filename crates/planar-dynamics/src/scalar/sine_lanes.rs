@@ -50,10 +50,12 @@ macro_rules! near {
                 let round = splat(Self::K.round);
                 let shifted = mul_add!(angle, splat(core::$float::consts::FRAC_2_PI), round);
                 let quarters = shifted - round;
-                let [a, b] = Self::K.quarter_turn.map(splat);
-                let x = mul_add!(-quarters, b, mul_add!(-quarters, a, angle));
-                let [sine, cosine] = [Self::K.sine, Self::K.cosine].map(|[.., last]| splat(last));
-                (Self { x, z: x * x, shifted, sine, cosine }, angle.abs().simd_gt(splat(Self::K.furthest)))
+                // an array of both vectors would be in memory
+                let [a, b] = Self::K.quarter_turn;
+                let x = mul_add!(-quarters, splat(b), mul_add!(-quarters, splat(a), angle));
+                let ([.., sine], [.., cosine]) = (Self::K.sine, Self::K.cosine);
+                let near = Self { x, z: x * x, shifted, sine: splat(sine), cosine: splat(cosine) };
+                (near, angle.abs().simd_gt(splat(Self::K.furthest)))
             }
 
             /// The next terms of the polynomials.
@@ -136,20 +138,6 @@ pub(crate) mod all {
     single!(NearF32x8, near_f32x8, f32x8, u32x8, 8);
     single!(NearF32x16, near_f32x16, f32x16, u32x16, 16);
 
-    /// An expression for each of the first angles without a loop, which would leave their sines in memory, from where they are slow to
-    /// come; for others with one.
-    macro_rules! each {
-        ($pairs:ident, $angles:ident, $pair:expr) => {
-            each!($pairs, $angles, $pair, 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23);
-            $pairs.iter_mut().zip($angles).skip(24).for_each(|(pair, angle)| *pair = $pair(angle));
-        };
-        ($pairs:ident, $angles:ident, $pair:expr, $($i:literal)*) => {
-            $(if let (Some(pair), Some(angle)) = ($pairs.get_mut($i), $angles.get($i)) {
-                *pair = $pair(*angle);
-            })*
-        };
-    }
-
     macro_rules! sin_cos {
         ($name:ident, $near:ident, $far:ident, $lanes:ident, $sines:ident) => {
             /// (sine, cosine) of the angles in the lanes, rad. `terms` are 0 where the angles are sums of finite ones: beyond
@@ -162,12 +150,11 @@ pub(crate) mod all {
                 let mut pairs = [($lanes::ZERO, $lanes::ONE); N];
                 let mut some_are_far = $lanes::ZERO;
                 // one test for all: between tests, the operations of one would wait for each other
-                let mut near = |angle| {
-                    let (pair, is_far) = $near(angle);
+                for (pair, angle) in pairs.iter_mut().zip(angles) {
+                    let is_far;
+                    (*pair, is_far) = $near(angle);
                     some_are_far |= is_far;
-                    pair
-                };
-                each!(pairs, angles, near);
+                }
                 if some_are_far.any() { $far(angles, terms()) } else { pairs }
             }
 
