@@ -131,20 +131,15 @@ pub fn consume<T>(result: T) {
     let _ = black_box(result);
 }
 
-/// Runge–Kutta steps of a motion under control, by hand.
+/// Runge–Kutta steps of a motion under control until the robot is at rest, by hand.
 fn steps(clock: &mut impl Clock, name: &str, motion: &impl Motion) {
     let mut start = [0.0; 18];
     start[3..9].copy_from_slice(&ANGLES);
-    let mut x = start;
-    let mut count = 0;
-    clock.each(name, 1, &[()], |()| {
-        if count % STEPS == 0 {
-            x = start;
-        }
-        count += 1;
-        runge_kutta::step(motion, &mut x, STEP);
+    clock.each(name, STEPS, &[start], |start| {
+        let mut x = *start;
+        (0..STEPS).for_each(|_| runge_kutta::step(motion, &mut x, STEP));
+        consume(x);
     });
-    black_box(x);
 }
 
 /// A law that holds the joints at 0.
@@ -155,25 +150,20 @@ const LAW: ProportionalDerivative<'static, f64, ConstantSetpoint<'static, f64>> 
 };
 
 /// As [`steps`], by integrator, law and equation of the library, with a vector of the caller's: of known length where it is an array.
-fn library_steps(
+fn library_steps<X: AsMut<[f64]> + Clone>(
     clock: &mut impl Clock,
     name: &str,
-    mut x: impl AsMut<[f64]>,
+    mut start: X,
     mut step: impl FnMut(&mut RungeKutta4<'_, f64>, &mut [f64]) -> Result<(), Error>,
 ) {
     let mut workspace = [0.0; 3 * LENGTH];
     let mut integrator = RungeKutta4::new(&mut workspace).expect("three vectors");
-    let mut count = 0;
-    clock.each(name, 1, &[()], |()| {
-        let x = x.as_mut();
-        if count % STEPS == 0 {
-            x.fill(0.0);
-            x[3..9].copy_from_slice(&ANGLES);
-        }
-        count += 1;
-        step(&mut integrator, x).expect("a regular state");
+    start.as_mut()[3..9].copy_from_slice(&ANGLES);
+    clock.each(name, STEPS, &[start], |start| {
+        let mut x = start.clone();
+        (0..STEPS).for_each(|_| step(&mut integrator, x.as_mut()).expect("a regular state"));
+        consume(x);
     });
-    black_box(x.as_mut());
 }
 
 /// As [`library_steps`], by a simulation that audits every step.

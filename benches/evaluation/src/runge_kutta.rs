@@ -8,6 +8,8 @@ pub type Vector = [f64; 18];
 pub const GAINS: [f64; 2] = [50.0, 20.0];
 
 /// Torques that hold the joints at 0.
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "as where they are asked for")]
 pub fn torques(x: &Vector) -> [f64; 6] {
     std::array::from_fn(|i| -GAINS[0] * x[3 + i] - GAINS[1] * x[12 + i])
 }
