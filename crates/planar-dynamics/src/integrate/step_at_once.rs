@@ -30,7 +30,7 @@ pub fn step_at_once<T: Real, const JOINTS: usize, const LENGTH: usize>(
 ) -> Option<()> {
     let x: &mut [T; LENGTH] = x.try_into().ok()?;
     let torques: &mut [T; JOINTS] = torques.try_into().ok()?;
-    let (mut sum, mut stage) = ([T::ZERO; LENGTH], *x);
+    let (mut sum, mut stage) = ([T::ZERO; LENGTH], [T::ZERO; LENGTH]);
     // slopes depend on all numbers but the place of the base: the places of all stages are finite where their sum is
     let mut places = [T::ZERO; 3];
     let mut accelerations = ([T::ZERO; 3], [T::ZERO; JOINTS]);
@@ -38,10 +38,10 @@ pub fn step_at_once<T: Real, const JOINTS: usize, const LENGTH: usize>(
     // four times in the text: a loop would look up the weights
     let [first, second, third, fourth] = stages(step).map(|(at, weight, next)| (time + at, weight, next));
     let pivots = [
-        stage_at_once(accelerate, torques_at, first, x, &mut all, torques)?,
-        stage_at_once(accelerate, torques_at, second, x, &mut all, torques)?,
-        stage_at_once(accelerate, torques_at, third, x, &mut all, torques)?,
-        stage_at_once(accelerate, torques_at, fourth, x, &mut all, torques)?,
+        stage_at_once::<_, _, _, true>(accelerate, torques_at, first, x, &mut all, torques)?,
+        stage_at_once::<_, _, _, false>(accelerate, torques_at, second, x, &mut all, torques)?,
+        stage_at_once::<_, _, _, false>(accelerate, torques_at, third, x, &mut all, torques)?,
+        stage_at_once::<_, _, _, false>(accelerate, torques_at, fourth, x, &mut all, torques)?,
     ];
     if !(pivots.into_iter().fold(true, |all, pivot| all & is_regular(pivot)) && all_finite([&sum, &places])) {
         return None;
@@ -50,10 +50,11 @@ pub fn step_at_once<T: Real, const JOINTS: usize, const LENGTH: usize>(
     Some(())
 }
 
-/// One stage at its time, with its weight and the next stage's distance: sums, the next stage, and the smallest pivot.
+/// One stage at its time, with its weight and the next stage's distance: sums, the next stage, and the smallest pivot. The first one is
+/// at `x` itself: a copy would be a call, whose loads wait for the stores of the step before.
 #[inline(always)]
 #[allow(clippy::inline_always, reason = "as where it is called")]
-fn stage_at_once<T: Real, const JOINTS: usize, const LENGTH: usize>(
+fn stage_at_once<T: Real, const JOINTS: usize, const LENGTH: usize, const FIRST: bool>(
     accelerate: &impl Fn([Half<'_, T, JOINTS>; 2], &[T; JOINTS], &mut [T; 3], &mut [T; JOINTS]) -> T,
     torques_at: &mut (impl FnMut(T, &[T], &mut [T]) -> Option<()> + ?Sized),
     (time, weight, next): (T, T, T),
@@ -61,14 +62,16 @@ fn stage_at_once<T: Real, const JOINTS: usize, const LENGTH: usize>(
     (stage, sum, places, (base, joints)): &mut Numbers<'_, T, JOINTS, LENGTH>,
     torques: &mut [T; JOINTS],
 ) -> Option<T> {
-    add_scaled(*places, T::ONE, *stage);
-    torques_at(time, *stage, torques)?;
-    let now = split(*stage).ok()?;
+    let now: &[T; LENGTH] = if FIRST { x } else { stage };
+    add_scaled(*places, T::ONE, now);
+    torques_at(time, now, torques)?;
+    let now = split(now).ok()?;
     let (positions, rates) = (parts(now.positions)?, parts(now.rates)?);
     let pivot = accelerate([positions, rates], torques, base, joints);
     let power = dot(torques, rates.1);
     let (sum, x, stage) = (split_mut(*sum).ok()?, split(x).ok()?, split_mut(*stage).ok()?);
-    advance(sum.positions, stage.positions, x.positions, stage.rates, weight, next);
+    let now_rates = if FIRST { x.rates } else { &*stage.rates };
+    advance(sum.positions, stage.positions, x.positions, now_rates, weight, next);
     // by the loads that match the stores of the accelerations
     let (base_sum, joints_sum) = sum.rates.split_at_mut_checked(3)?;
     let (base_stage, joints_stage) = stage.rates.split_at_mut_checked(3)?;
