@@ -26,8 +26,7 @@ pub fn all_finite<T: Real, const N: usize>(slices: [&[T]; N]) -> bool {
     }
     let products = |sum, values: &[T]| {
         values.iter().fold(sum, |sum: Option<T>, value| {
-            let product = *value * T::ZERO;
-            Some(sum.map_or(product, |sum| sum + product))
+            Some(sum.map_or(*value * T::ZERO, |sum| T::mul_add(*value, T::ZERO, sum)))
         })
     };
     slices.into_iter().fold(None, products).is_none_or(|sum| sum == T::ZERO)
