@@ -27,7 +27,7 @@ A step is one of a motion of 20 s, by a loop by hand around evaluations, the sam
 into it: functions with `#[inline(always)]` that the loop calls by name, over arrays. In the second row it is called, too. Which of the
 two is faster depends on processor and build: what is called returns its numbers through memory, where a processor waits for vectors
 that are put together from several stores; four evaluations in the text of a step are some 4000 instructions, more than some processors
-keep decoded. The library's step, [below](#simulation), calls evaluations over arrays.
+keep decoded. The library's step, [below](#simulation), has them in its text, too.
 
 ";
 
@@ -99,8 +99,7 @@ const BOUNDS: &str = "
 ## Bounds
 
 The ratio of this run, and the largest that is meant to be; **bold** where it is above. The bounds of `f64x8` and of batches are for
-processors with AVX-512, which batches take from Ice Lake and Zen 4 on. The step of the first rows is the loop by hand: where
-evaluations in its text do not suit a processor, called ones are faster, and so may be the library's step.
+processors with AVX-512, which batches take from Ice Lake and Zen 4 on. The step of the first rows is the loop by hand.
 
 | | default x86-64 | native, fused |
 |---|---|---|

@@ -17,7 +17,7 @@ macro_rules! implement_dynamics {
                 ForwardDynamics, Impact, Merge, Momentum, MomentumAndEnergy, ReducedDynamics, Robot, TorquesAt,
             };
             use $crate::error::Error;
-            use $crate::integrate::step_at_once::{Half, step_at_once, unknown};
+            use $crate::integrate::step_at_once::{Accelerate, Accelerations, Half, step_at_once};
             use $crate::manifest::ParameterKind;
             use $crate::objection;
             use $crate::scalar::Real;
@@ -130,44 +130,34 @@ macro_rules! implement_dynamics {
                     if LENGTH > 32 || cfg!(target_arch = "arm") {
                         return None;
                     }
-                    let accelerate = |[(pose, angles), (twist, rates)]: [Half<'_, T, JOINTS>; 2],
-                                      torques: &[T; JOINTS],
-                                      base: &mut [T; 3],
-                                      joints: &mut [T; JOINTS]| {
-                        accelerate(self, pose, angles, twist, rates, torques, base, joints)
-                    };
                     match torques_at {
                         Some(torques_at) => {
-                            step_at_once::<_, JOINTS, LENGTH>(&accelerate, torques_at, time_and_step, x, torques)
+                            step_at_once::<_, JOINTS, LENGTH>(self, torques_at, time_and_step, x, torques)
                         }
                         None => {
                             let constant = &mut |_, _: &[T], _: &mut [T]| Some(());
-                            step_at_once::<_, JOINTS, LENGTH>(&accelerate, constant, time_and_step, x, torques)
+                            step_at_once::<_, JOINTS, LENGTH>(self, constant, time_and_step, x, torques)
                         }
                     }
                 }
             }
 
-            // a call: four evaluations in the text of a step would not fit where the processor keeps what it has decoded
-            #[inline(never)]
-            #[allow(clippy::too_many_arguments, reason = "each in a register")]
-            fn accelerate<T: Real>(
-                model: &Model<T>,
-                base_pose: &[T; 3],
-                joint_angles: &[T; JOINTS],
-                base_twist: &[T; 3],
-                joint_rates: &[T; JOINTS],
-                joint_torques: &[T; JOINTS],
-                base_acceleration: &mut [T; 3],
-                joint_accelerations: &mut [T; JOINTS],
-            ) -> T {
-                let (joint_angles, joint_rates, joint_torques) =
-                    (unknown(joint_angles), unknown(joint_rates), unknown(joint_torques));
-                let result =
-                    model.forward_dynamics_with_pivot::<false>(base_pose, joint_angles, base_twist, joint_rates, joint_torques);
-                *base_acceleration = result.base_acceleration;
-                *joint_accelerations = result.joint_accelerations;
-                result.smallest_pivot
+            impl<T: Real> Accelerate<T, JOINTS> for Model<T> {
+                #[inline(always)]
+                fn accelerate(
+                    &self,
+                    [(base_pose, joint_angles), (base_twist, joint_rates)]: [Half<'_, T, JOINTS>; 2],
+                    joint_torques: &[T; JOINTS],
+                ) -> Accelerations<T, JOINTS> {
+                    let result = self
+                        .forward_dynamics_configuration(base_pose, joint_angles)
+                        .forward_dynamics_with_pivot::<false>(base_twist, joint_rates, joint_torques);
+                    Accelerations {
+                        base: result.base_acceleration,
+                        joints: result.joint_accelerations,
+                        smallest_pivot: result.smallest_pivot,
+                    }
+                }
             }
 
             $crate::implement_dynamics!(@accelerations under_torques forward_dynamics_with_pivot());

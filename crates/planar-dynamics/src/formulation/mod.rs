@@ -36,7 +36,7 @@ pub use reduced_coordinates::ReducedCoordinates;
 use crate::control::Control;
 use crate::dynamics::Model;
 use crate::error::Error;
-use crate::linear::{copy, dot};
+use crate::linear::{copy, power};
 use crate::read_again::read_again;
 use crate::scalar::Real;
 use crate::state::{Forces, State, StateVector, coordinates_mut, split, split_mut};
@@ -91,5 +91,5 @@ pub(crate) fn accelerations<T: Real, M: Model<T> + ?Sized>(
     *accelerations.base = model.forward_dynamics(&state, &forces, accelerations.joints)?;
     let [omega, ..] = state.base_twist;
     let of_base = base_torque.map_or([T::ZERO; 2], |torque| [torque * omega, torque]);
-    Ok([dot(torques, state.joint_rates), of_base[0], of_base[1]])
+    Ok([power(torques, state.joint_rates), of_base[0], of_base[1]])
 }

@@ -3,7 +3,7 @@
 use crate::control::Control;
 use crate::dynamics::Model;
 use crate::error::Error;
-use crate::linear::{copy, dot, matrix_rows, solve};
+use crate::linear::{copy, dot, matrix_rows, power, solve};
 use crate::momentum_equation::MomentumEquation;
 use crate::scalar::Real;
 use crate::state::{ActuatorWork, State, StateVector, coordinates_mut, split_mut, vector_length};
@@ -69,7 +69,7 @@ impl<T: Real> ReducedCoordinates<'_, T> {
         }
         solve("the generalized inertia I", generalized_inertia, accelerations.joints)?;
         let [omega, ..] = state.base_twist;
-        *work = [dot(torques, state.joint_rates), base_torque * omega, base_torque];
+        *work = [power(torques, state.joint_rates), base_torque * omega, base_torque];
         Ok(())
     }
 

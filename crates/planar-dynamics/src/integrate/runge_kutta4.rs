@@ -49,7 +49,8 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
     ) -> Result<(), Error> {
         let Self { slope, sum, stage } = self;
         length("state vector", slope.len(), x.len())?;
-        sum.fill(T::ZERO);
+        // it gives the first slope's bits also where that is -0
+        sum.fill(-T::ZERO);
         copy(x, stage);
         // one call in the text, which can then be inlined
         for (at, weight, next) in stages(step) {
@@ -144,7 +145,7 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
         // up to ten instructions for each
         let zero = read_again(T::ZERO);
         for ((sum, stage), x) in sum.iter_mut().zip(stage.iter_mut()).zip(x.iter()) {
-            (*sum, *stage) = (zero, *x - zero);
+            (*sum, *stage) = (-zero, *x - zero);
         }
         for (at, weight, next) in stages(step) {
             let x = read_again(&*x).get(..sum.len()).unwrap_or_default();
@@ -184,7 +185,7 @@ pub(super) fn stages<T: Real>(step: T) -> [(T, T, T); 4] {
 
 /// Adds the weighted slopes to the sums, and takes the next stage from them.
 #[inline]
-pub(super) fn advance<T: Real>(sum: &mut [T], stage: &mut [T], x: &[T], slopes: &[T], weight: T, next: T) {
+fn advance<T: Real>(sum: &mut [T], stage: &mut [T], x: &[T], slopes: &[T], weight: T, next: T) {
     for ((sum, stage), (x, slope)) in sum.iter_mut().zip(stage).zip(x.iter().zip(slopes)) {
         *sum = T::mul_add(*slope, weight, *sum);
         *stage = T::mul_add(*slope, next, *x);

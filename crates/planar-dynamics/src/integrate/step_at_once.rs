@@ -1,28 +1,46 @@
 //! A Runge–Kutta step of a robot whose number of joints the compiler knows, with one look at its numbers, at the end.
+//!
+//! All numbers are values of one function: what is passed on by a call, also by one of a closure, is in memory, and a stage waits for it.
 
-use super::runge_kutta4::{advance, stages};
-use crate::linear::{add_scaled, dot};
+#![allow(clippy::inline_always, reason = "see above")]
+
+use super::runge_kutta4::stages;
+use crate::linear::{copy, power};
 use crate::scalar::Real;
 use crate::state::{split, split_mut};
-use crate::validate::{all_finite, is_regular};
-use core::hint::black_box;
+use crate::validate::is_regular;
 
 /// Positions or rates of a robot: of the base and the joints.
 pub type Half<'a, T, const JOINTS: usize> = (&'a [T; 3], &'a [T; JOINTS]);
 
-/// A stage, the weighted sums of slopes, the sum of places, and accelerations of base and joints.
-type Numbers<'a, T, const JOINTS: usize, const LENGTH: usize> =
-    (&'a mut [T; LENGTH], &'a mut [T; LENGTH], &'a mut [T; 3], &'a mut ([T; 3], [T; JOINTS]));
+/// Base pose, joint angles, base twist and joint rates of a vector, or their slopes.
+type Parts<Slice> = [Slice; 4];
 
-/// The step of an integrated vector of so many numbers under the torques at each of its stages; `accelerate` takes positions, rates
-/// and torques, fills the accelerations of base and joints, and returns the smallest pivot.
+/// A robot whose equations of motion are in the text of each stage.
+pub trait Accelerate<T, const JOINTS: usize> {
+    /// By positions, rates and torques, without a look at them.
+    fn accelerate(&self, state: [Half<'_, T, JOINTS>; 2], torques: &[T; JOINTS]) -> Accelerations<T, JOINTS>;
+}
+
+/// Accelerations of a robot.
+#[derive(Debug)]
+pub struct Accelerations<T, const JOINTS: usize> {
+    /// Of the base.
+    pub base: [T; 3],
+    /// Of the joints.
+    pub joints: [T; JOINTS],
+    /// Of the equations that they solve.
+    pub smallest_pivot: T,
+}
+
+/// The step of an integrated vector of so many numbers under the torques at each of its stages.
 ///
 /// `None`, with `x` unchanged, for vectors of another length, without torques, and where the step is not regular and finite. Each
-/// branch between stages would keep numbers in memory, and a stage wait for them.
+/// branch between stages would keep numbers in memory.
 #[inline(always)]
-#[allow(clippy::inline_always, reason = "the caller may know the torques")]
+#[allow(clippy::many_single_char_names, reason = "the vector and its four stages")]
 pub fn step_at_once<T: Real, const JOINTS: usize, const LENGTH: usize>(
-    accelerate: &impl Fn([Half<'_, T, JOINTS>; 2], &[T; JOINTS], &mut [T; 3], &mut [T; JOINTS]) -> T,
+    robot: &impl Accelerate<T, JOINTS>,
     torques_at: &mut (impl FnMut(T, &[T], &mut [T]) -> Option<()> + ?Sized),
     [time, step]: [T; 2],
     x: &mut [T],
@@ -30,74 +48,153 @@ pub fn step_at_once<T: Real, const JOINTS: usize, const LENGTH: usize>(
 ) -> Option<()> {
     let x: &mut [T; LENGTH] = x.try_into().ok()?;
     let torques: &mut [T; JOINTS] = torques.try_into().ok()?;
-    let (mut sum, mut stage) = ([T::ZERO; LENGTH], [T::ZERO; LENGTH]);
-    // slopes depend on all numbers but the place of the base: the places of all stages are finite where their sum is
-    let mut places = [T::ZERO; 3];
-    let mut accelerations = ([T::ZERO; 3], [T::ZERO; JOINTS]);
-    let mut all = (&mut stage, &mut sum, &mut places, &mut accelerations);
-    // four times in the text: a loop would look up the weights
-    let [first, second, third, fourth] = stages(step).map(|(at, weight, next)| (time + at, weight, next));
-    let pivots = [
-        stage_at_once::<_, _, _, true>(accelerate, torques_at, first, x, &mut all, torques)?,
-        stage_at_once::<_, _, _, false>(accelerate, torques_at, second, x, &mut all, torques)?,
-        stage_at_once::<_, _, _, false>(accelerate, torques_at, third, x, &mut all, torques)?,
-        stage_at_once::<_, _, _, false>(accelerate, torques_at, fourth, x, &mut all, torques)?,
-    ];
-    if !(pivots.into_iter().fold(true, |all, pivot| all & is_regular(pivot)) && all_finite([&sum, &places])) {
+    let [(at_a, weight_a, to_b), (at_b, weight_b, to_c), (at_c, weight_c, to_d), (at_d, weight_d, _)] = stages(step);
+
+    let (a, power_a) = accelerations(robot, torques_at, time + at_a, x, torques)?;
+    let slopes_a = slopes(x, &a)?;
+    let x_b = along(x, to_b, slopes_a)?;
+    let (b, power_b) = accelerations(robot, torques_at, time + at_b, &x_b, torques)?;
+    let slopes_b = slopes(&x_b, &b)?;
+    let x_c = along(x, to_c, slopes_b)?;
+    let (c, power_c) = accelerations(robot, torques_at, time + at_c, &x_c, torques)?;
+    let slopes_c = slopes(&x_c, &c)?;
+    let x_d = along(x, to_d, slopes_c)?;
+    let (d, power_d) = accelerations(robot, torques_at, time + at_d, &x_d, torques)?;
+    let slopes_d = slopes(&x_d, &d)?;
+
+    let weights = [weight_a, weight_b, weight_c, weight_d];
+    let sums: [T; LENGTH] = weighted(weights, [slopes_a, slopes_b, slopes_c, slopes_d])?;
+    let mut work = [T::ZERO];
+    weighted_part(&mut work, weights, [&[power_a], &[power_b], &[power_c], &[power_d]]);
+
+    // a sum is finite only where its terms are; slopes depend on all numbers but the place of the base
+    let [pose, angles, twist, rates] = parts(&sums)?;
+    let total = add_to(add_to(add_to(add_to([T::ZERO; 2], angles), rates), pose), twist);
+    let ([pose_a, ..], [pose_b, ..]) = (parts(x)?, parts(&x_b)?);
+    let ([pose_c, ..], [pose_d, ..]) = (parts(&x_c)?, parts(&x_d)?);
+    let [total, other] = add_to(add_to(add_to(add_to(total, pose_a), pose_b), pose_c), pose_d);
+    let is_finite = (total + other) * T::ZERO == T::ZERO;
+    let pivots = [a, b, c, d].map(|accelerations| accelerations.smallest_pivot);
+    if !pivots.into_iter().fold(is_finite, |all, pivot| all & is_regular(pivot)) {
         return None;
     }
-    add_scaled(x, step / T::constant(6.0), &sum);
+
+    let sixth = step / T::constant(6.0);
+    let end = along(x, sixth, parts(&sums)?)?;
+    let (x, end) = (split_mut(x).ok()?, split(&end).ok()?);
+    copy(end.positions, x.positions);
+    copy(end.rates, x.rates);
+    let ([joint_work, ..], [work]) = (x.work, work);
+    *joint_work = T::mul_add(work, sixth, *joint_work);
     Some(())
 }
 
-/// One stage at its time, with its weight and the next stage's distance: sums, the next stage, and the smallest pivot. The first one is
-/// at `x` itself: a copy would be a call, whose loads wait for the stores of the step before.
+/// Accelerations of a stage, and the power of its torques.
 #[inline(always)]
-#[allow(clippy::inline_always, reason = "as where it is called")]
-fn stage_at_once<T: Real, const JOINTS: usize, const LENGTH: usize, const FIRST: bool>(
-    accelerate: &impl Fn([Half<'_, T, JOINTS>; 2], &[T; JOINTS], &mut [T; 3], &mut [T; JOINTS]) -> T,
+fn accelerations<T: Real, const JOINTS: usize, const LENGTH: usize>(
+    robot: &impl Accelerate<T, JOINTS>,
     torques_at: &mut (impl FnMut(T, &[T], &mut [T]) -> Option<()> + ?Sized),
-    (time, weight, next): (T, T, T),
+    time: T,
     x: &[T; LENGTH],
-    (stage, sum, places, (base, joints)): &mut Numbers<'_, T, JOINTS, LENGTH>,
     torques: &mut [T; JOINTS],
-) -> Option<T> {
-    let now: &[T; LENGTH] = if FIRST { x } else { stage };
-    add_scaled(*places, T::ONE, now);
-    torques_at(time, now, torques)?;
-    let now = split(now).ok()?;
-    let (positions, rates) = (parts(now.positions)?, parts(now.rates)?);
-    let pivot = accelerate([positions, rates], torques, base, joints);
-    let power = dot(torques, rates.1);
-    let (sum, x, stage) = (split_mut(*sum).ok()?, split(x).ok()?, split_mut(*stage).ok()?);
-    let now_rates = if FIRST { x.rates } else { &*stage.rates };
-    advance(sum.positions, stage.positions, x.positions, now_rates, weight, next);
-    // by the loads that match the stores of the accelerations
-    let (base_sum, joints_sum) = sum.rates.split_at_mut_checked(3)?;
-    let (base_stage, joints_stage) = stage.rates.split_at_mut_checked(3)?;
-    let (base_x, joints_x) = x.rates.split_at_checked(3)?;
-    advance(base_sum, base_stage, base_x, base, weight, next);
-    advance(joints_sum, joints_stage, joints_x, joints, weight, next);
-    // that of the next stage is not asked for
-    let [joint_work, ..] = sum.work;
-    *joint_work = T::mul_add(power, weight, *joint_work);
-    Some(pivot)
+) -> Option<(Accelerations<T, JOINTS>, T)> {
+    torques_at(time, x, torques)?;
+    let [pose, angles, twist, rates] = parts(x)?;
+    let (positions, rates) = (half(pose, angles)?, half(twist, rates)?);
+    // as long as both are in registers
+    let power = power(torques, rates.1);
+    Some((robot.accelerate([positions, rates], torques), power))
 }
 
-/// The parts of one half of the vector.
+/// Slopes of a vector.
 #[inline(always)]
-#[allow(clippy::inline_always, reason = "as where it is called")]
-fn parts<T, const JOINTS: usize>(half: &[T]) -> Option<Half<'_, T, JOINTS>> {
-    let (base, joints) = half.split_first_chunk()?;
-    Some((base, joints.try_into().ok()?))
+fn slopes<'a, T, const JOINTS: usize, const LENGTH: usize>(
+    x: &'a [T; LENGTH],
+    accelerations: &'a Accelerations<T, JOINTS>,
+) -> Option<Parts<&'a [T]>> {
+    let [.., twist, rates] = parts(x)?;
+    Some([twist, rates, &accelerations.base, &accelerations.joints])
 }
 
-/// The same reference. Where the processor has vectors, the compiler does not know what is beside the number, and loads it alone: a
-/// vector over two stores would wait until both are in the cache. With AVX-512 it loads numbers alone anyway, and the reference would
-/// be waited for.
+/// The vector so far along slopes; of the work, which no stage asks for, it has nothing.
 #[inline(always)]
-#[allow(clippy::inline_always, reason = "there is nothing to call")]
-pub fn unknown<X>(reference: &X) -> &X {
-    let has_pairs = cfg!(any(target_arch = "x86_64", target_arch = "aarch64")) && cfg!(not(target_feature = "avx512f"));
-    if has_pairs { black_box(reference) } else { reference }
+fn along<T: Real, const LENGTH: usize>(x: &[T; LENGTH], by: T, slopes: Parts<&[T]>) -> Option<[T; LENGTH]> {
+    let mut end = [T::ZERO; LENGTH];
+    let ([pose, angles, twist, rates], from) = (parts_mut(&mut end)?, parts(x)?);
+    along_part(pose, from[0], by, slopes[0]);
+    along_part(angles, from[1], by, slopes[1]);
+    along_part(twist, from[2], by, slopes[2]);
+    along_part(rates, from[3], by, slopes[3]);
+    Some(end)
+}
+
+/// In pairs of numbers, as [`weighted_part`]: left to itself, the compiler pairs others at each stage.
+#[inline(always)]
+fn along_part<T: Real>(end: &mut [T], from: &[T], by: T, slopes: &[T]) {
+    let (end, last_end) = end.as_chunks_mut();
+    let ((from, last_from), (slopes, last_slope)) = (from.as_chunks(), slopes.as_chunks());
+    for (end, (from, slope)) in end.iter_mut().zip(from.iter().zip(slopes)) {
+        *end = T::mul_add_both(*slope, [by; 2], *from);
+    }
+    for (end, (from, slope)) in last_end.iter_mut().zip(last_from.iter().zip(last_slope)) {
+        *end = T::mul_add(*slope, by, *from);
+    }
+}
+
+/// Weighted sums of slopes.
+#[inline(always)]
+fn weighted<T: Real, const LENGTH: usize>(weights: [T; 4], [a, b, c, d]: [Parts<&[T]>; 4]) -> Option<[T; LENGTH]> {
+    let mut sums = [T::ZERO; LENGTH];
+    let [pose, angles, twist, rates] = parts_mut(&mut sums)?;
+    weighted_part(pose, weights, [a[0], b[0], c[0], d[0]]);
+    weighted_part(angles, weights, [a[1], b[1], c[1], d[1]]);
+    weighted_part(twist, weights, [a[2], b[2], c[2], d[2]]);
+    weighted_part(rates, weights, [a[3], b[3], c[3], d[3]]);
+    Some(sums)
+}
+
+#[inline(always)]
+fn weighted_part<T: Real>(sums: &mut [T], [w_a, w_b, w_c, w_d]: [T; 4], [a, b, c, d]: [&[T]; 4]) {
+    let ((sums, last_sum), (a, last_a), (b, last_b)) = (sums.as_chunks_mut(), a.as_chunks(), b.as_chunks());
+    let ((c, last_c), (d, last_d)) = (c.as_chunks(), d.as_chunks());
+    for (sum, ((a, b), (c, d))) in sums.iter_mut().zip(a.iter().zip(b).zip(c.iter().zip(d))) {
+        let first = T::mul_add_both(*b, [w_b; 2], T::mul_both(*a, [w_a; 2]));
+        *sum = T::mul_add_both(*d, [w_d; 2], T::mul_add_both(*c, [w_c; 2], first));
+    }
+    for (sum, ((a, b), (c, d))) in last_sum.iter_mut().zip(last_a.iter().zip(last_b).zip(last_c.iter().zip(last_d))) {
+        let first = T::mul_add(*b, w_b, *a * w_a);
+        *sum = T::mul_add(*d, w_d, T::mul_add(*c, w_c, first));
+    }
+}
+
+/// Two sums, and the numbers.
+#[inline(always)]
+fn add_to<T: Real>([mut sum, mut other]: [T; 2], numbers: &[T]) -> [T; 2] {
+    let (pairs, last) = numbers.as_chunks();
+    for pair in pairs {
+        [sum, other] = T::add_both([sum, other], *pair);
+    }
+    for last in last {
+        sum += *last;
+    }
+    [sum, other]
+}
+
+#[inline(always)]
+fn parts<T>(x: &[T]) -> Option<Parts<&[T]>> {
+    let x = split(x).ok()?;
+    let ((pose, angles), (twist, rates)) = (x.positions.split_at_checked(3)?, x.rates.split_at_checked(3)?);
+    Some([pose, angles, twist, rates])
+}
+
+#[inline(always)]
+fn parts_mut<T>(x: &mut [T]) -> Option<Parts<&mut [T]>> {
+    let x = split_mut(x).ok()?;
+    let ((pose, angles), (twist, rates)) = (x.positions.split_at_mut_checked(3)?, x.rates.split_at_mut_checked(3)?);
+    Some([pose, angles, twist, rates])
+}
+
+#[inline(always)]
+fn half<'a, T, const JOINTS: usize>(base: &'a [T], joints: &'a [T]) -> Option<Half<'a, T, JOINTS>> {
+    Some((base.try_into().ok()?, joints.try_into().ok()?))
 }

@@ -26,6 +26,22 @@ pub(crate) fn dot<T: Real, B: Borrow<T>>(a: &[T], b: impl IntoIterator<Item = B>
     a.iter().zip(b).fold(T::ZERO, |sum, (a, b)| sum + *a * *b.borrow())
 }
 
+/// Power of torques at rates: that of every other one, and of the rest.
+#[cfg_attr(target_arch = "arm", inline)]
+#[cfg_attr(not(target_arch = "arm"), inline(always))]
+#[allow(clippy::inline_always, reason = "what it borrows would be in memory")]
+pub(crate) fn power<T: Real>(torques: &[T], rates: &[T]) -> T {
+    let ((torques, last_torque), (rates, last_rate)) = (torques.as_chunks(), rates.as_chunks());
+    let [mut power, mut other] = [T::ZERO; 2];
+    for (torques, rates) in torques.iter().zip(rates) {
+        [power, other] = T::add_both([power, other], T::mul_both(*torques, *rates));
+    }
+    for (torque, rate) in last_torque.iter().zip(last_rate) {
+        power += *torque * *rate;
+    }
+    power + other
+}
+
 /// The rows of a matrix with so many columns; none without columns.
 ///
 /// `chunks_exact` would do, but it divides by a number that a build for size takes for a possible zero.
@@ -49,7 +65,7 @@ pub(crate) fn matrix_rows_mut<T>(mut entries: &mut [T], columns: usize) -> impl 
 /// `sum += factor · part`, over the length of the shorter one.
 pub(crate) fn add_scaled<T: Real>(sum: &mut [T], factor: T, part: &[T]) {
     for (sum, part) in sum.iter_mut().zip(part) {
-        *sum += factor * *part;
+        *sum = T::mul_add(factor, *part, *sum);
     }
 }
 

@@ -89,9 +89,11 @@ macro_rules! near {
                 let exchange = (sine ^ cosine) & (zero - (quadrant & one));
                 // the second of its last bits where the sign of a number is
                 let turned = quadrant << $turn;
-                let sine = sine ^ exchange ^ (turned & sign);
-                let cosine = cosine ^ exchange ^ ((turned + turn) & sign);
-                (cast(sine), cast(cosine))
+                let (sine_sign, cosine_sign) = (turned & sign, (turned + turn) & sign);
+                // signs are those of floats: lanes of integers that are taken apart would go through memory
+                let [sine, sine_sign]: [$lanes; 2] = [cast(sine ^ exchange), cast(sine_sign)];
+                let [cosine, cosine_sign]: [$lanes; 2] = [cast(cosine ^ exchange), cast(cosine_sign)];
+                (sine ^ sine_sign, cosine ^ cosine_sign)
             }
         }
 
