@@ -51,7 +51,8 @@
 //! [scalar](scalar::Scalar). Feature `std` adds files, scenarios and simulation, `build` the generation of modules for
 //! other crates, `urdf` layouts from URDF files and back, `fmu` FMUs for co-simulation, `cli` (the default) the command
 //! line, `sweep` (another default) campaigns, `figures` figures as SVG and PNG, `parquet` time series as Parquet, `mcap` recordings for Foxglove and Rerun,
-//! `lanes` SIMD lanes as scalars, `batch` many instances at once.
+//! `lanes` SIMD lanes as scalars, `batch` many instances at once, `fused` products and sums with one rounding where the processor has
+//! it, `serde` the formats of serde, `prove` the proof of what build scripts render.
 //!
 //! # Example
 //! ```

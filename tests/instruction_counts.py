@@ -2,7 +2,7 @@
 
     python3 tests/instruction_counts.py [--study planar-capture] [--write]
 
-Valgrind counts, so the numbers are the same on a loaded machine and depend on the compiler alone. Its processor has
+Valgrind, which is installed where it can be, counts, so the numbers are the same on a loaded machine and depend on the compiler alone. Its processor has
 AVX2 and no AVX-512, whatever the machine has. What has an instruction that it does not know is not counted: 3.19
 lacks one of AVX's moves. A function is counted in a default build and in one for x86-64-v3: the
 difference of runs of many and of few calls, over the number of calls. The study is one run of the given program.

@@ -10,12 +10,18 @@ use std::process::Command;
 
 const HEAD: &str = "# Performance
 
-<!-- Written by `cargo run --release --manifest-path benches/evaluation/Cargo.toml`, which also writes the numbers as JSON. -->
+<!-- Written by the command below. -->
 
 Processor time of one evaluation for the paper's robot (two arms of three links, 9 degrees of freedom), in one run in which all
 builds take turns. CasADi's C code is that of the same formulation with the robot's numbers in it, compiled with `-O3
--march=native`; generated code takes its numbers at run time. All results agree to 1e-11 before anything is measured. Times
-depend on the machine: compare ratios.
+-march=native`; generated code takes its numbers at run time. It computes both arms at once, as modules rendered by a build script do, and
+those of `generate --pairs`. Builds that are fused have the feature [`fused`](book/src/guide/library.md#bits). All results agree to 1e-11 before anything is measured. Times
+depend on the machine: compare ratios. On yours:
+
+    cargo run --release --manifest-path benches/evaluation/Cargo.toml
+
+It writes this page, and the numbers as JSON. Engines beside C, and criterion, are described in that file; instructions are counted by
+`python3 tests/instruction_counts.py`.
 
 SUMMARY
 
@@ -26,7 +32,7 @@ angles that it has just seen; generated sines have no such branch.
 A step is one of a motion of 20 s, by a loop by hand around evaluations, the same text for both. C is called. Generated code is inlined
 into it: functions with `#[inline(always)]` that the loop calls by name, over arrays. In the second row it is called, too. Which of the
 two is faster depends on processor and build: what is called returns its numbers through memory, where a processor waits for vectors
-that are put together from several stores; four evaluations in the text of a step are some 4000 instructions, more than some processors
+that are put together from several stores; four evaluations in the text of a step are some 3000 instructions, more than some processors
 keep decoded. The library's step, [below](#simulation), has them in its text, too.
 
 ";

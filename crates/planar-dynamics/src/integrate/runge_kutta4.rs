@@ -67,11 +67,11 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
     /// under a control law. The slopes of the positions are not copied, they are the rates of the stage. `torques` (joints) holds
     /// those of the last stage afterwards. [`Control::begin_step`] is left to the caller.
     ///
-    /// A generated model of up to 11 joints, without bodies and a base torque, takes its step in arrays on the stack, except on Arm:
+    /// A generated model of up to 11 joints, without bodies and a base torque, takes its step in arrays on the stack, except on 32-bit Arm:
     /// whether it is regular and finite is asked at its end, and where it is not, its stages are computed again, to see which of them
-    /// is not. The law is then asked twice, first about what follows after such a stage, too, which may be NaN. Such a step is one
-    /// call where the type of the model is not known; where law and vectors are of known lengths, too (arrays, not `Vec`s), it is as
-    /// fast as one written by hand.
+    /// is not. The law is then asked twice, first also at the stages that follow on such a one, whose numbers may be NaN. One with a
+    /// base torque is asked once more at the start of a step. Such a step is one call where the type of the model is not known; where law
+    /// and vectors are of known lengths, too (arrays, not `Vec`s), it takes little more than one written by hand.
     ///
     /// # Errors
     /// As [`step`](Self::step): of the robot's numbers. Work and free bodies are not looked at.

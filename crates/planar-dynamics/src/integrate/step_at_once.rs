@@ -1,6 +1,7 @@
 //! A Runge–Kutta step of a robot whose number of joints the compiler knows, with one look at its numbers, at the end.
 //!
-//! All numbers are values of one function: what is passed on by a call, also by one of a closure, is in memory, and a stage waits for it.
+//! All numbers are values of one function. A call would pass them on through memory, for which a stage waits; a closure that is used
+//! several times is called, too.
 
 #![allow(clippy::inline_always, reason = "see above")]
 
