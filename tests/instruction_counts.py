@@ -2,10 +2,11 @@
 
     python3 tests/instruction_counts.py [--study planar-capture] [--write]
 
-Valgrind, which is installed where it can be, counts, so the numbers are the same on a loaded machine and depend on the compiler alone. Its processor has
-AVX2 and no AVX-512, whatever the machine has. What has an instruction that it does not know is not counted: 3.19
-lacks one of AVX's moves. A function is counted in a default build and in one for x86-64-v3: the
-difference of runs of many and of few calls, over the number of calls. The study is one run of the given program.
+Valgrind, which is installed where it can be, counts, so the numbers are the same on a loaded machine and depend on
+the compiler alone. Its processor has AVX2 and no AVX-512, whatever the machine has. What has an instruction that it
+does not know is not counted: 3.19 lacks one of AVX's moves. A function is counted in a default build and in one for
+x86-64-v3: the difference of runs of many and of few calls, over the number of calls. The study is one run of the
+given program.
 
 The bounds are those of a compiler, in benches/instructions/bounds.json: a count may be 2 % above, for the C library's
 part. For a compiler without bounds the counts are printed. `--write` sets the bounds of this compiler.

@@ -14,9 +14,9 @@ const HEAD: &str = "# Performance
 
 Processor time of one evaluation for the paper's robot (two arms of three links, 9 degrees of freedom), in one run in which all
 builds take turns. CasADi's C code is that of the same formulation with the robot's numbers in it, compiled with `-O3
--march=native`; generated code takes its numbers at run time. It computes both arms at once, as modules rendered by a build script do, and
-those of `generate --pairs`. Builds that are fused have the feature [`fused`](book/src/guide/library.md#bits). All results agree to 1e-11 before anything is measured. Times
-depend on the machine: compare ratios. On yours:
+-march=native`; generated code takes its numbers at run time. It computes both arms at once, as modules do that a build script renders, and
+those of `generate --pairs`. Builds that are fused have the feature [`fused`](book/src/guide/library.md#bits). All results agree to
+1e-11 before anything is measured. Times depend on the machine: compare ratios. On yours:
 
     cargo run --release --manifest-path benches/evaluation/Cargo.toml
 

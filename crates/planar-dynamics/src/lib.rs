@@ -1,7 +1,8 @@
 //! The core of `planar-capture`: traits of a robot's dynamics; contacts, impacts, control laws, formulations, integrators
 //! and trajectories on slices and arrays.
 //!
-//! It never contains: std (but for the features `batch` and `fused`), an allocation, a panic, a computation for one number type alone, access to files, a parser.
+//! It never contains: std (but for the features `batch` and `fused`), an allocation, a panic, a computation for one number type alone,
+//! access to files, a parser.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![no_std]
 

@@ -4,7 +4,7 @@ use crate::control::Control;
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::formulation::accelerations;
-use crate::linear::{add_scaled, copy};
+use crate::linear::copy;
 use crate::read_again::{from_memory, read_again};
 use crate::scalar::Real;
 use crate::state::{State, split, split_mut};
@@ -49,7 +49,7 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
     ) -> Result<(), Error> {
         let Self { slope, sum, stage } = self;
         length("state vector", slope.len(), x.len())?;
-        // it gives the first slope's bits also where that is -0
+        // adding to negative zeros leaves all bits
         sum.fill(-T::ZERO);
         copy(x, stage);
         // one call in the text, which can then be inlined
@@ -59,7 +59,7 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
         }
         // not kept from the last stage
         read_again(&mut *x);
-        add_scaled(x, step / T::constant(6.0), sum);
+        end(x, step, sum);
         Ok(())
     }
 
@@ -152,7 +152,7 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
             robot_stage(model, control, (time + at, weight, next), x, [slope, sum, stage], torques)?;
         }
         let x = read_again(x).get_mut(..sum.len()).unwrap_or_default();
-        add_scaled(x, step / T::constant(6.0), sum);
+        end(x, step, sum);
         Ok(())
     }
 }
@@ -181,6 +181,14 @@ fn robot_stage<T: Real, M: Model<T> + ?Sized>(
 pub(super) fn stages<T: Real>(step: T) -> [(T, T, T); 4] {
     let (half, two) = (step * T::constant(0.5), T::constant(2.0));
     [(T::ZERO, T::ONE, half), (half, two, half), (half, two, step), (step, T::ONE, T::ZERO)]
+}
+
+/// The vector at the end of a step, by the sums of its slopes.
+fn end<T: Real>(x: &mut [T], step: T, sum: &[T]) {
+    let sixth = step / T::constant(6.0);
+    for (x, sum) in x.iter_mut().zip(sum) {
+        *x = T::mul_add(*sum, sixth, *x);
+    }
 }
 
 /// Adds the weighted slopes to the sums, and takes the next stage from them.

@@ -65,7 +65,7 @@ pub(crate) fn matrix_rows_mut<T>(mut entries: &mut [T], columns: usize) -> impl 
 /// `sum += factor · part`, over the length of the shorter one.
 pub(crate) fn add_scaled<T: Real>(sum: &mut [T], factor: T, part: &[T]) {
     for (sum, part) in sum.iter_mut().zip(part) {
-        *sum = T::mul_add(factor, *part, *sum);
+        *sum += factor * *part;
     }
 }
 
