@@ -34,7 +34,7 @@ class DirectionalDerivatives:
     def family(self, asked: str, functions: dict[str, Function]) -> Family:
         name, by_parameters = asked.removesuffix(PARAMETERS), asked.endswith(PARAMETERS)
         if name not in functions:
-            raise DerivativesError(f"no function `{name}` to derive; there are: {', '.join(functions)}")
+            raise DerivativesError(f"--directional: no function `{name}`; there are: {', '.join(functions)}")
         function = functions[name]
         if by_parameters and name.startswith("forward_dynamics"):
             self._check_last_links(name)
@@ -69,7 +69,7 @@ class DirectionalDerivatives:
         for arm in self.symbols.layout.arms:
             if arm.links[-1].com == (0.0, 0.0):
                 text = f"the COM of the last link of arm `{arm.name}` is at its joint"
-                raise DerivativesError(f"`{name}` has no derivative by parameters: {text}")
+                raise DerivativesError(f"--directional: `{name}` has no derivative by parameters: {text}")
 
     def _derivative(self, function: str, output: Output, tangent: "Tangent", along: list[str]) -> Output:
         return Output(

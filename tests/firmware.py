@@ -363,9 +363,8 @@ LTO, C with `-O2 -ffp-contract=off`.
   may then be less than with other angles.
 - **What is built.** Programs for the M4F are built for the target's default processor, those for the M7 with
   `-C target-cpu=cortex-m7`. With `-C target-cpu=cortex-m4` the compiler replaces each `VMLA`, of three cycles there,
-  by a product and a sum of one cycle each: up to a quarter more instructions, and stack for the products (by the
-  library 937 / 228 in forward dynamics, 1,445 / 428 in inertia, bias and Jacobian, 5,007 / 456 in control and step, in
-  `f32`), fewer cycles by the processor's manual. Of the exact impact in Rust the velocities are used, and the compiler
+  by a product and a sum of one cycle each: up to a quarter more instructions, and stack for the products, but
+  fewer cycles by the processor's manual. Of the exact impact in Rust the velocities are used, and the compiler
   leaves out that its matrix and momentum are stored; who keeps them, has them in a frame of their own: 360 bytes in
   `f32`. C always stores them.
 - **Stack** is painted, below the caller's own: the most of all these states. The library's integrator works in memory

@@ -146,7 +146,12 @@ fn options_are_checked_and_kept() {
     }
     let (code, _, err) =
         outcome(generate(folder.path(), &["held_out.toml", "--out", "robot.rs", "--directional", "momenta"]));
-    assert!(code == 2 && err.contains("no function `momenta`") && err.contains("reduced_dynamics, "), "{err}");
+    assert!(
+        code == 2
+            && err.contains("held_out.toml: --directional: no function `momenta`")
+            && err.contains("reduced_dynamics, "),
+        "{err}"
+    );
     assert!(!folder.path().join("robot.rs").exists());
     // the command that mends a module has its options
     let (code, _, err) =

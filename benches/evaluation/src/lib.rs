@@ -22,3 +22,5 @@ pub mod measure;
 mod runge_kutta;
 #[cfg(feature = "measure")]
 mod states;
+#[cfg(feature = "measure")]
+mod studies;

@@ -40,9 +40,9 @@ fn main() -> ExitCode {
 fn print() -> Result<(), Problem> {
     let mut times = ThreadTime::default();
     measure::all(&mut times)?;
-    let operations = measure::operations().map(|(name, count)| (format!("operations, {name}"), f64::from(count)));
-    let all: serde_json::Map<_, _> =
-        times.0.into_iter().chain(operations).map(|(name, value)| (name, value.into())).collect();
+    let operations = measure::operations().map(|(name, count)| (format!("operations, {name}"), count.into()));
+    let times = times.0.into_iter().map(|(name, time)| (name, time.into()));
+    let all: serde_json::Map<_, _> = times.chain(operations).collect();
     println!("{}", serde_json::Value::Object(all));
     Ok(())
 }

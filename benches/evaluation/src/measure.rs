@@ -8,6 +8,7 @@ use crate::derivatives::{self, derivatives};
 use crate::limit;
 use crate::runge_kutta::{self, GAINS, Motion, Vector, parts, torques};
 use crate::states::{State, states};
+use crate::studies;
 use planar_build::prove::generic::Generic;
 use planar_capture::control::{Control, ProportionalDerivative};
 use planar_capture::dynamics::{AnyModel, ForwardDynamics as _, Impact as _, ReducedDynamics as _};
@@ -29,6 +30,8 @@ use planar_layout::layout::Layout;
 use std::hint::black_box;
 use std::path::Path;
 use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
+
+pub use crate::limit::operations;
 
 /// States that stay in the first-level cache, and that do not.
 const FEW: usize = 64;
@@ -99,6 +102,7 @@ pub fn all(clock: &mut impl Clock) -> Result<(), Problem> {
     });
     simulated_steps(clock, &model);
     audited_states(clock, &model, &few)?;
+    studies::all(clock)?;
 
     forward_dynamics_in_lanes(clock, "f32", &few, |[value]: [f64; 1]| single(value));
     forward_dynamics_in_lanes(clock, "f32x4", &few, |values| f32x4::from(values.map(single)));
@@ -117,13 +121,6 @@ pub fn all(clock: &mut impl Clock) -> Result<(), Problem> {
     clock.each("generic, full impact", 1, &few, |s| consume(impact_of_generic(&generic, s)));
     limit::operation(clock);
     Ok(())
-}
-
-/// Operations of evaluations, by their names.
-pub fn operations() -> impl Iterator<Item = (&'static str, u32)> {
-    ["forward dynamics", "reduced dynamics", "reduced impact", "full impact"]
-        .into_iter()
-        .zip(limit::operations(&states(1)[0]))
 }
 
 /// Keeps the compiler from leaving out what has no use.

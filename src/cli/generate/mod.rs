@@ -21,6 +21,7 @@ use std::process::ExitCode;
 const EXAMPLES: &str = "\
 Examples:
   planar-capture generate mine.toml --out mine.rs
+  planar-capture generate mine.toml --pairs --derivatives --out mine.rs
   planar-capture generate dual_arm_3r --language c --out dual_arm_3r.c
   planar-capture generate dual_arm_3r --fmu --out dual_arm_3r.fmu";
 
@@ -195,6 +196,9 @@ pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, Comman
             "warning: single precision does not hold this robot: {why}; modules are right in double precision, and their own \
              test in single precision fails"
         ));
+    }
+    if arguments.pairs && !graph.has_equal_arms() {
+        note("note: no two arms have as many links and the same exact zeros: nothing is computed in pairs");
     }
     if arguments.check {
         return Ok(check(&paths, &product, arguments));

@@ -14,6 +14,9 @@ const PYTHONS: [&str; 6] = ["python3", "python3.14", "python3.13", "python3.12",
 /// The program that tells a new enough Python from an old one by its exit status.
 const OLDEST: &str = "import sys; sys.exit(sys.version_info < (3, 11))";
 
+/// Its exit code where what is asked for is not possible, which it says.
+const REFUSED: i32 = 2;
+
 /// Tells the package that it runs in its environment; the same name is in its `__main__.py`.
 const INSIDE: &str = "PLANAR_CAPTURE_CODEGEN_INSIDE";
 
@@ -55,6 +58,12 @@ pub enum DerivationError {
         python: String,
         /// Why not.
         source: io::Error,
+    },
+    /// What is asked for is not possible.
+    #[error("{reason}")]
+    Refused {
+        /// Why not.
+        reason: String,
     },
     /// Python ran and gave no graph.
     #[error("the derivation failed ({status}):\n{output}")]
@@ -202,10 +211,13 @@ fn run(mut command: Command, python: &OsString, say: &mut dyn FnMut(&str)) -> Re
     }
     let status = child.wait().map_err(failed)?;
     if status.success() {
-        Ok(())
-    } else {
-        Err(DerivationError::Failed { status: status.to_string(), output: output.join("\n") })
+        return Ok(());
     }
+    let output = output.join("\n");
+    Err(match output.strip_prefix("error: ") {
+        Some(reason) if status.code() == Some(REFUSED) => DerivationError::Refused { reason: reason.to_owned() },
+        _ => DerivationError::Failed { status: status.to_string(), output },
+    })
 }
 
 #[cfg(test)]

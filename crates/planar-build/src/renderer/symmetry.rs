@@ -30,6 +30,15 @@ enum Name {
     Name(String),
 }
 
+impl Graph {
+    /// Whether arms are of equal structure, two by two, which modules can compute in pairs: as many links, with the same
+    /// exact zeros.
+    #[must_use]
+    pub fn has_equal_arms(&self) -> bool {
+        !Symmetry::of(self).counterparts.is_empty()
+    }
+}
+
 impl Symmetry {
     /// Of inputs, parameters and constants. Arms of as many links with the same exact zeros are of equal structure.
     pub fn of(graph: &Graph) -> Self {
