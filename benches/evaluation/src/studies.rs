@@ -14,12 +14,14 @@ pub fn all(clock: &mut impl Clock) -> Result<(), Problem> {
     let text = std::fs::read_to_string(folder.join("raina_shah_2017.toml"))?;
     let scenario = |text: &str| Scenario::parse(text, "raina_shah_2017.toml", &folder, registry::SHIPPED);
     let shipped = scenario(&text).map_err(|report| report.to_string())?;
-    let lines = text.lines().filter(|line| !line.starts_with("integrator")).collect::<Vec<_>>();
-    let adaptive = lines.join("\n").replace("step = 0.005", "step = 0.05");
-    let adaptive = scenario(&adaptive).map_err(|report| report.to_string())?;
-    let mut one = adaptive.clone();
+    let adaptive = |step: &str| {
+        let lines = text.lines().filter(|line| !line.starts_with("integrator")).collect::<Vec<_>>();
+        scenario(&lines.join("\n").replace("step = 0.005", step)).map_err(|report| report.to_string())
+    };
+    let mut one = adaptive("step = 0.5")?;
     one.cases.truncate(1);
     one.approach.end = FinalRates::JointRates(run(&one, 0.5)?.terminal_rates.ok_or("no end rates")?.joint_rates);
+    let adaptive = adaptive("step = 0.05")?;
     for (name, scenario, sample) in
         [("study, fixed steps", &shipped, 0.05), ("study, adaptive", &adaptive, 0.05), ("study, one case", &one, 0.5)]
     {
