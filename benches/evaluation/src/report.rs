@@ -78,8 +78,8 @@ const STUDIES: &str = "
 
 Whole studies in memory, without files, ms: an approach, three captures and the motion after each, with audits, estimates of errors,
 contacts and clearance. The shipped scenario has fixed steps of 5 ms, 34,000 of them. Without its key `integrator` steps are adaptive, to
-1e-10; audits are 0.05 s apart then. Samples are 0.05 s apart, of one case alone 0.5 s; its joint rates at the end of the approach are
-given, as in a sweep, which designs them once.
+1e-10. Samples, and audits between adaptive steps, are 0.05 s apart, of one case alone 0.5 s; its joint rates at the end of the approach
+are given, as in a sweep, which designs them once.
 
 | |";
 
