@@ -25,7 +25,7 @@ pub fn all(clock: &mut impl Clock) -> Result<(), Problem> {
     for (name, scenario, sample) in
         [("study, fixed steps", &shipped, 0.05), ("study, adaptive", &adaptive, 0.05), ("study, one case", &one, 0.5)]
     {
-        clock.each(name, 1, &[()], |()| consume(run(scenario, sample).expect("it was computed before")));
+        clock.each(name, 1, &[()], |()| consume(run(scenario, sample).expect("the shipped study has results")));
     }
     Ok(())
 }
