@@ -12,12 +12,13 @@ use std::path::Path;
 pub fn all(clock: &mut impl Clock) -> Result<(), Problem> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
     let text = std::fs::read_to_string(folder.join("raina_shah_2017.toml"))?;
-    let scenario = |text: &str| Scenario::parse(text, "raina_shah_2017.toml", &folder, registry::SHIPPED);
-    let shipped = scenario(&text).map_err(|report| report.to_string())?;
-    let adaptive = |step: &str| {
-        let lines = text.lines().filter(|line| !line.starts_with("integrator")).collect::<Vec<_>>();
-        scenario(&lines.join("\n").replace("step = 0.005", step)).map_err(|report| report.to_string())
+    let scenario = |text: &str| {
+        let parsed = Scenario::parse(text, "raina_shah_2017.toml", &folder, registry::SHIPPED);
+        parsed.map_err(|report| report.to_string())
     };
+    let shipped = scenario(&text)?;
+    let lines = text.lines().filter(|line| !line.starts_with("integrator")).collect::<Vec<_>>().join("\n");
+    let adaptive = |step: &str| scenario(&lines.replace("step = 0.005", step));
     let mut one = adaptive("step = 0.5")?;
     one.cases.truncate(1);
     one.approach.end = FinalRates::JointRates(run(&one, 0.5)?.terminal_rates.ok_or("no end rates")?.joint_rates);
